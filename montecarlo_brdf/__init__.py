@@ -1,0 +1,43 @@
+"""montecarlo_brdf: a Monte Carlo verifier of BRDFs whose verdicts can be trusted.
+
+Conventions (one place for all of them):
+
+    frame         tangent frame, normal n = (0, 0, 1); theta from n, phi azimuth
+    wo, wi        unit vectors away from the surface; wo towards the viewer is given, wi towards the
+                  light is drawn or integrated over
+    f(wo, wi, p)  BRDF in 1/sr without the cosine, 0 below the horizon
+    pdf           density per solid angle, 1/sr
+    alpha         GGX/Beckmann width (alpha = roughness^2)
+    angles        a name says _deg or it is in radians
+    A(wo)         directional albedo, int f cos(theta_i) dwi; R(wi) = int f cos(theta_o) dwo
+
+Reading order: vectors, sampling, model, integration, checks, report, cli.
+"""
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "load": "loading",
+    "Model": "model",
+    "UserError": "errors",
+    "ModelError": "errors",
+    "Estimate": "statistics",
+    "directional_albedo": "integration.estimators",
+    "reverse_albedo": "integration.estimators",
+    "bihemispherical_albedo": "integration.estimators",
+    "furnace": "checks.furnace",
+    "identities": "checks.identities",
+}
+
+__all__ = ["__version__", *_HOMES]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used: `brdf-check --help` must feel instant."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)

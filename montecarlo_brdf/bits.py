@@ -1,0 +1,90 @@
+"""Fixed-width integer words that mean the same in plain Python and in compiled kernels.
+
+Plain Python integers have no width and numba's have no masks, so code on words is written with
+`u64`, `u32`, `reverse32`, `word_of`, `double_of`: ordinary functions here, machine instructions in a
+kernel (`compiled_twins`).
+"""
+from __future__ import annotations
+
+import struct
+from typing import Any, Callable
+
+GOLDEN = 0x9E3779B97F4A7C15  # 2^64 / golden ratio, odd: steps that never repeat within 2^64
+
+
+def u64(x: int) -> int:
+    """x modulo 2^64."""
+    return int(x) & 0xFFFFFFFFFFFFFFFF
+
+
+def u32(x: int) -> int:
+    """x modulo 2^32."""
+    return int(x) & 0xFFFFFFFF
+
+
+def reverse32(x: int) -> int:
+    """The 32 bits of x in reverse order."""
+    return int(f"{x:032b}"[::-1], 2)
+
+
+def word_of(x: float) -> int:
+    """The 64 bits of a double as a signed integer; ordered like the doubles where x >= 0."""
+    return int(struct.unpack("<q", struct.pack("<d", x))[0])
+
+
+def double_of(word: int) -> float:
+    """The double whose bits are `word`: the inverse of `word_of`."""
+    return float(struct.unpack("<d", struct.pack("<q", word))[0])
+
+
+def mix64(z: int) -> int:
+    """A bijection of 64-bit words in which every input bit moves every output bit.
+
+    Source: Stafford's variant 13 of the MurmurHash3 finaliser, as in SplitMix64
+    (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators").
+    """
+    z = u64((z ^ (z >> u64(30))) * u64(0xBF58476D1CE4E5B9))
+    z = u64((z ^ (z >> u64(27))) * u64(0x94D049BB133111EB))
+    return z ^ (z >> u64(31))
+
+
+def unit(z: int) -> float:
+    """A 64-bit word as a number in [0, 1 - 2^-53], from its upper 53 bits."""
+    return (z >> u64(11)) * 1.1102230246251565e-16
+
+
+def compiled_twins() -> dict[Callable[..., Any], Any]:
+    """What stands for the plain functions above inside a kernel."""
+    import llvmlite.ir as ir
+    import numba
+    from numba.extending import intrinsic
+
+    @intrinsic
+    def reverse(typing: Any, x: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            word = ir.IntType(32)
+            return builder.call(builder.module.declare_intrinsic("llvm.bitreverse", [word]), args)
+
+        return numba.uint32(numba.uint32), generate
+
+    @intrinsic
+    def double(typing: Any, x: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            return builder.bitcast(args[0], ir.DoubleType())
+
+        return numba.float64(numba.int64), generate
+
+    @intrinsic
+    def word(typing: Any, x: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            return builder.bitcast(args[0], ir.IntType(64))
+
+        return numba.int64(numba.float64), generate
+
+    return {
+        u64: numba.uint64,
+        u32: numba.uint32,
+        reverse32: reverse,
+        word_of: word,
+        double_of: double,
+    }

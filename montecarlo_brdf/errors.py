@@ -1,0 +1,31 @@
+"""What goes wrong, as one clear sentence with an exit code. A crash must not look like a verdict."""
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class UserError(Exception):
+    """A mistake in what was asked for: unknown name, bad value, missing file."""
+
+    exit_code = 2
+
+
+class ModelError(UserError):
+    """The model could not be loaded or compiled, or it raised."""
+
+    exit_code = 4
+
+
+class OutputError(UserError):
+    """A result could not be written."""
+
+    exit_code = 5
+
+
+def unknown(kind: str, name: object, allowed: Iterable[str]) -> str:
+    """Sentence for a name that is not among `allowed`, with the nearest one if there is any."""
+    names = list(allowed)
+    near = difflib.get_close_matches(str(name), names, n=1)
+    guess = f"; did you mean {near[0]!r}?" if near else ""
+    return f"no {kind} {str(name)!r}{guess} (choose from {', '.join(names) or 'none'})"

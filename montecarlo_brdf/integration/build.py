@@ -1,0 +1,129 @@
+"""From a model's functions to a callable kernel: memory, then disk, then the compiler."""
+from __future__ import annotations
+
+import functools
+import threading
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from montecarlo_brdf import bits, jit
+from montecarlo_brdf.integration import cache, kernel, native, parameters
+from montecarlo_brdf.integration.specialise import Fingerprint, Specialiser
+from montecarlo_brdf.sampling import points as point_sets
+
+Function = Callable[..., Any]
+
+#: How everything but the kernel itself is compiled: only ever called from other compiled code.
+INLINE = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+
+class Recipe(NamedTuple):
+    """All that a kernel is made of."""
+
+    points: str
+    integrands: tuple[Function, ...]
+    functions: Mapping[str, Function]  # what F, SAMPLE, PDF stand for in the integrands
+    layout: parameters.Layout
+
+    @property
+    def channels(self) -> int:
+        """Number of parameter sets."""
+        return len(self.layout.places)
+
+    def key(self) -> str:
+        """Hash of everything the machine code depends on."""
+        content = Fingerprint()
+        content.add(native.identity())
+        content.add(_compiler_source())
+        content.add(self.layout.key())
+        content.add(getattr(point_sets, self.points))
+        for integrand in self.integrands:
+            content.add(integrand, self.functions)
+        content.add(kernel.moments)
+        content.add(len(self.integrands))
+        return content.hexdigest()
+
+
+@functools.cache
+def _compiler_source() -> tuple[bytes, ...]:
+    """The files that say how code is generated, as opposed to what it computes."""
+    return tuple(Path(str(m.__file__)).read_bytes() for m in (bits, jit, native, parameters))
+
+
+_loaded: dict[str, native.NativeKernel] = {}
+_lock = threading.Lock()
+
+
+def kernel_of(recipe: Recipe) -> native.NativeKernel:
+    """The compiled kernel of a recipe."""
+    key = recipe.key()
+    with _lock:
+        if key not in _loaded:
+            _loaded[key] = _from_disk(key) or _from_source(recipe, key)
+        return _loaded[key]
+
+
+def _from_disk(key: str) -> native.NativeKernel | None:
+    image = cache.read(key)
+    return native.load(image) if image else None
+
+
+def _from_source(recipe: Recipe, key: str) -> native.NativeKernel:
+    function = compile_recipe(recipe)
+    try:
+        image = native.compile_function(function)
+    except native.NeedsRuntime:
+        return native.compile_in_process(function)
+    cache.write(key, image)
+    return native.load(image)
+
+
+def compile_recipe(recipe: Recipe) -> Function:
+    """The kernel template with everything bound, ready to be compiled."""
+    special = _specialiser()
+    bound = {
+        "POINTS": getattr(point_sets, recipe.points),
+        "STORE": _store(special, [special.bind(i, recipe.functions) for i in recipe.integrands]),
+        "PARAMETERS": parameters.unpacker(recipe.layout),
+        "BUFFER": _buffer(kernel.BLOCK * recipe.channels * len(recipe.integrands)),
+        "CHANNELS": recipe.channels,
+        "SLOTS": len(recipe.integrands),
+    }
+    return special.clone(kernel.moments, bound)
+
+
+@functools.cache
+def _specialiser() -> Specialiser:
+    """One for the process, so that kernels share the functions they have in common."""
+    import numba
+
+    def compile_one(function: Function) -> Any:
+        return numba.njit(**INLINE, **jit.options())(function)
+
+    return Specialiser(compile_one, bits.compiled_twins())
+
+
+def _store(special: Specialiser, integrands: list[Any]) -> Any:
+    """A chain that evaluates each integrand into its own slot."""
+    store = special.bind(kernel.store_last, {"INTEGRAND": integrands[-1]})
+    for integrand in reversed(integrands[:-1]):
+        store = special.bind(kernel.store_more, {"INTEGRAND": integrand, "REST": store})
+    return store
+
+
+def _buffer(size: int) -> Any:
+    """Intrinsic that reserves `size` doubles on the kernel's stack."""
+    import llvmlite.ir as ir
+    import numba
+    from numba.core import cgutils
+    from numba.extending import intrinsic
+
+    @intrinsic
+    def buffer(typing: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            return cgutils.alloca_once(builder, ir.DoubleType(), size=size)
+
+        return numba.types.CPointer(numba.float64)(), generate
+
+    return buffer

@@ -1,0 +1,199 @@
+"""Estimators: a model, a direction and a sampler turned into an `Estimate`, never a bare float."""
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.errors import ModelError, UserError, unknown
+from montecarlo_brdf.integration import build, integrands, kernel, parameters, probe, work
+from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.sampling.points import SETS
+from montecarlo_brdf.sampling.streams import stream
+from montecarlo_brdf.statistics import Estimate, estimate
+from montecarlo_brdf.vectors import Vec, from_degrees
+
+REPLICATES = 16
+SAMPLERS = ("uniform", "cosine", "own")
+MOST_SAMPLES = 1 << 40
+
+
+class Plan(NamedTuple):
+    """How to sample."""
+
+    points: str = "sobol"
+    samples: int = 1 << 16
+    replicates: int = REPLICATES
+    seed: int = 0
+    threads: int = 1
+    progress: work.Progress | None = None
+
+
+def check_samples(samples: Any) -> int:
+    """A number of samples between 1 and 2^40, or a UserError."""
+    if isinstance(samples, bool) or not isinstance(samples, int) or not 1 <= samples <= MOST_SAMPLES:
+        raise UserError(f"samples must be a whole number from 1 to 2^40, not {samples}")
+    return samples
+
+
+def check_theta(theta_deg: Any, name: str = "theta_o_deg") -> float:
+    """A polar angle in [0, 90) degrees, or a UserError."""
+    try:
+        theta = float(theta_deg)
+    except (TypeError, ValueError):
+        theta = math.nan
+    if not 0.0 <= theta < 90.0:
+        raise UserError(f"{name} must be an angle in [0, 90) degrees, not {theta_deg}")
+    return theta
+
+
+def samplers_of(model: Model, quantity: str = "albedo") -> tuple[str, ...]:
+    """The samplers by which a quantity of this model can be estimated."""
+    if model.sample and (model.pdf or (_weighted(model) and quantity != "reverse")):
+        return SAMPLERS
+    return SAMPLERS[:2]
+
+
+def directional_albedo(
+    model: Model,
+    p: Any,
+    theta_o_deg: float,
+    *,
+    phi_o_deg: float = 0.0,
+    sampler: str = "cosine",
+    points: str = "sobol",
+    samples: int = 1 << 16,
+    seed: int = 0,
+    replicates: int = REPLICATES,
+    threads: int = 1,
+) -> Any:
+    """Directional albedo A(wo) = int f cos(theta_i) dwi, with its error bar.
+
+    theta_o_deg, phi_o_deg: direction of the viewer in degrees, theta in [0, 90).
+    sampler: "uniform", "cosine" or "own"; points: "independent" or "sobol"; samples: the total over
+    all replicates. Returns an Estimate, or a list of one per channel for a colour.
+    Raises UserError for a bad value, ModelError if the model does not compile or raises.
+    """
+    plan = Plan(points, samples, replicates, seed, threads)
+    wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
+    return _one(model, p, "albedo", wo, sampler, plan)
+
+
+def reverse_albedo(
+    model: Model,
+    p: Any,
+    theta_i_deg: float,
+    *,
+    phi_i_deg: float = 0.0,
+    sampler: str = "cosine",
+    points: str = "sobol",
+    samples: int = 1 << 16,
+    seed: int = 0,
+    replicates: int = REPLICATES,
+    threads: int = 1,
+) -> Any:
+    """Reverse albedo R(wi) = int f cos(theta_o) dwo: all the light that leaves, for light from wi.
+
+    This is what energy conservation bounds by 1; it equals A only if f is reciprocal. Arguments and
+    result as for `directional_albedo`.
+    """
+    plan = Plan(points, samples, replicates, seed, threads)
+    wi = from_degrees(check_theta(theta_i_deg, "theta_i_deg"), phi_i_deg)
+    return _one(model, p, "reverse", wi, sampler, plan)
+
+
+def bihemispherical_albedo(
+    model: Model,
+    p: Any,
+    *,
+    sampler: str = "cosine",
+    points: str = "sobol",
+    samples: int = 1 << 16,
+    seed: int = 0,
+    replicates: int = REPLICATES,
+    threads: int = 1,
+) -> Any:
+    """Radiosity over irradiance under uniform light, 2 int A(mu) mu dmu, between 0 and 1."""
+    plan = Plan(points, samples, replicates, seed, threads)
+    return _one(model, p, "bihemispherical", (0.0, 0.0, 1.0), sampler, plan)
+
+
+def _one(model: Model, p: Any, quantity: str, fixed: Vec, sampler: str, plan: Plan) -> Any:
+    model = model.of(p)
+    offered = samplers_of(model, quantity)
+    if sampler not in offered:
+        raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
+    names = [integrand_name(model, quantity, sampler)]
+    rows = estimates(model, p, fixed, names, plan, (quantity, sampler))
+    return rows[0][0] if len(rows) == 1 else [row[0] for row in rows]
+
+
+def integrand_name(model: Model, quantity: str, sampler: str) -> str:
+    """The integrand for a quantity and sampler; a sampler that returns its weight uses that."""
+    weighted = sampler == "own" and _weighted(model) and quantity != "reverse"
+    return f"{quantity}_{'weighted' if weighted else sampler}"
+
+
+@functools.lru_cache(maxsize=256)
+def _weighted(model: Model) -> bool:
+    return probe.returns_weight(model)
+
+
+def estimates(
+    model: Model, p: Any, fixed: Vec, names: Sequence[str], plan: Plan, label: tuple[Any, ...]
+) -> list[list[Estimate]]:
+    """Estimates of several integrands on the same points: result[channel][integrand]."""
+    check_samples(plan.samples)
+    if plan.points not in SETS:
+        raise UserError(unknown("point set", plan.points, SETS))
+    sets = [model.prepared(c) for c in channels(p)]
+    functions = tuple(getattr(integrands, n) for n in names)
+    replicates = max(1, min(plan.replicates, plan.samples))
+    per_replicate = _per_replicate(plan, replicates)
+    identity = (model.name, *model.picks.values(), *label, *map(repr, p), *fixed)
+    key = stream(plan.seed, plan.points, *identity)
+    rows = []
+    for group in _groups(sets, len(names)):
+        layout, numbers = parameters.pack(group, kernel.QUERY)
+        entry = compiled(model, plan.points, functions, layout)
+        reals = (*fixed, 0.0, *numbers)
+        job = work.Job(entry, reals, len(group) * len(names), key, replicates, per_replicate)
+        results = [estimate(m) for m in work.run(job, plan.threads, plan.progress)]
+        rows += [results[i : i + len(names)] for i in range(0, len(results), len(names))]
+    return rows
+
+
+def _groups(sets: list[Any], width: int) -> list[list[Any]]:
+    """Channels that share a kernel: as many as fit a small stack."""
+    size = max(1, 16 // width)
+    return [sets[i : i + size] for i in range(0, len(sets), size)]
+
+
+def _per_replicate(plan: Plan, replicates: int) -> int:
+    """Samples in each replicate, rounded up to what the point set needs."""
+    each = -(-plan.samples // replicates)
+    most, power_of_two = SETS[plan.points]
+    each = 1 << (each - 1).bit_length() if power_of_two else each
+    if each > most:
+        raise UserError(f"{plan.points} points allow {most} samples per replicate, not {each}")
+    return each
+
+
+def compiled(model: Model, points: str, functions: tuple[Any, ...], layout: Any) -> Any:
+    """The kernel for a model; numba's complaints become one sentence."""
+    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
+    given = {k: v for k, v in bound.items() if v is not None}
+    try:
+        return build.kernel_of(build.Recipe(points, functions, given, layout))
+    except Exception as error:
+        if type(error).__module__.startswith("numba"):
+            raise ModelError(f"model {model.name} does not compile: {_first_reason(error)}") from error
+        raise
+
+
+def _first_reason(error: Exception) -> str:
+    """The line of a numba error that says what is wrong, without its stack of contexts."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    telling = [line for line in lines if not line.startswith(("Failed in", "During:", "-", "File"))]
+    return " ".join((telling or lines or ["numba gave no reason"])[0].split())[:300]

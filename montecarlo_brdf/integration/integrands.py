@@ -1,0 +1,101 @@
+"""What the kernels average: one number per point u in [0, 1)^5, for every quantity and sampler.
+
+`F`, `SAMPLE` and `PDF` are bound to a model's functions. `fixed` is the given direction (wo for the
+albedo, wi for the reverse albedo) and a number that only some integrands use. The framework never
+evaluates a model below the horizon: a drawn direction with z <= 0 was rejected and counts as 0.
+"""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from montecarlo_brdf.sampling.warps import random_hemisphere, random_hemisphere_cosine
+
+F: Any = None
+SAMPLE: Any = None
+PDF: Any = None
+
+PI = math.pi
+TWO_PI = 2.0 * math.pi
+
+
+def albedo_uniform(u: Any, fixed: Any, p: Any) -> float:
+    """f cos / pdf with wi uniform over the hemisphere: E = A(wo)."""
+    wi = random_hemisphere(u[0], u[1])
+    return F((fixed[0], fixed[1], fixed[2]), wi, p) * wi[2] * TWO_PI
+
+
+def albedo_cosine(u: Any, fixed: Any, p: Any) -> float:
+    """f cos / pdf with wi cosine-weighted: E = A(wo), the cosine cancels."""
+    wi = random_hemisphere_cosine(u[0], u[1])
+    return F((fixed[0], fixed[1], fixed[2]), wi, p) * PI
+
+
+def albedo_own(u: Any, fixed: Any, p: Any) -> float:
+    """f cos / pdf with wi from the model's sampler: E = A(wo)."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
+    if wi[2] <= 0.0:
+        return 0.0
+    return F(wo, wi, p) * wi[2] / PDF(wo, wi, p)
+
+
+def albedo_weighted(u: Any, fixed: Any, p: Any) -> float:
+    """The weight f cos / pdf that the model's sampler returns itself: E = A(wo)."""
+    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[2]), p)
+    if wi[2] <= 0.0:
+        return 0.0
+    return wi[3]
+
+
+def reverse_uniform(u: Any, fixed: Any, p: Any) -> float:
+    """f cos / pdf with wo uniform over the hemisphere: E = R(wi)."""
+    wo = random_hemisphere(u[0], u[1])
+    return F(wo, (fixed[0], fixed[1], fixed[2]), p) * wo[2] * TWO_PI
+
+
+def reverse_cosine(u: Any, fixed: Any, p: Any) -> float:
+    """f cos / pdf with wo cosine-weighted: E = R(wi)."""
+    wo = random_hemisphere_cosine(u[0], u[1])
+    return F(wo, (fixed[0], fixed[1], fixed[2]), p) * PI
+
+
+def reverse_own(u: Any, fixed: Any, p: Any) -> float:
+    """f cos / pdf with wo drawn as the model's sampler would draw wi: E = R(wi)."""
+    wi = (fixed[0], fixed[1], fixed[2])
+    drawn = SAMPLE(wi, (u[0], u[1], u[2]), p)
+    if drawn[2] <= 0.0:
+        return 0.0
+    wo = (drawn[0], drawn[1], drawn[2])
+    return F(wo, wi, p) * wo[2] / PDF(wi, wo, p)
+
+
+def bihemispherical_uniform(u: Any, fixed: Any, p: Any) -> float:
+    """wo cosine-weighted, wi uniform: E = radiosity over irradiance under uniform light."""
+    wo = random_hemisphere_cosine(u[2], u[3])
+    wi = random_hemisphere(u[0], u[1])
+    return F(wo, wi, p) * wi[2] * TWO_PI
+
+
+def bihemispherical_cosine(u: Any, fixed: Any, p: Any) -> float:
+    """wo and wi cosine-weighted: E = radiosity over irradiance under uniform light."""
+    wo = random_hemisphere_cosine(u[2], u[3])
+    wi = random_hemisphere_cosine(u[0], u[1])
+    return F(wo, wi, p) * PI
+
+
+def bihemispherical_own(u: Any, fixed: Any, p: Any) -> float:
+    """wo cosine-weighted, wi from the model's sampler."""
+    wo = random_hemisphere_cosine(u[2], u[3])
+    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
+    if wi[2] <= 0.0:
+        return 0.0
+    return F(wo, wi, p) * wi[2] / PDF(wo, wi, p)
+
+
+def bihemispherical_weighted(u: Any, fixed: Any, p: Any) -> float:
+    """wo cosine-weighted, the weight that the model's sampler returns."""
+    wi = SAMPLE(random_hemisphere_cosine(u[2], u[3]), (u[0], u[1], u[4]), p)
+    if wi[2] <= 0.0:
+        return 0.0
+    return wi[3]

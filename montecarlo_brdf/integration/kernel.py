@@ -1,0 +1,90 @@
+"""The inner loop: mean and spread of an integrand over a point set, for K parameter sets at once.
+
+`moments` is a template. Its capitalised names are bound by `integration.build` to a point set,
+integrands and an unpacker of parameters; the result is compiled per model. Samples are taken in
+blocks of fixed size that are merged in fixed order, so that results do not depend on how the work
+is cut into calls or on the number of threads.
+"""
+from __future__ import annotations
+
+from typing import Any
+
+from montecarlo_brdf.bits import double_of, u64, word_of
+from montecarlo_brdf.sampling.points import replicate_key
+
+BLOCK = 1024
+#: reals before the parameters: the fixed direction (x, y, z) and one number for the integrand
+QUERY = 4
+#: numbers kept per replicate and channel: count, mean, sum of squared deviations, largest x
+STATE = 4
+
+POINTS: Any = None
+INTEGRAND: Any = None
+STORE: Any = None
+REST: Any = None
+PARAMETERS: Any = None
+BUFFER: Any = None
+CHANNELS = 1  # parameter sets
+SLOTS = 1  # integrands
+
+
+
+def moments(ints: Any, reals: Any, out: Any) -> None:
+    """Add samples [start, start + count) of replicates [first, first + many) to `out`.
+
+    ints = (key, first, many, start, count); reals = query and parameters; out holds STATE numbers
+    per replicate, channel and integrand, all zero before the first call.
+    """
+    query = (reals[0], reals[1], reals[2], reals[3])
+    parameters = PARAMETERS(reals)
+    x = BUFFER()
+    stop = ints[3] + ints[4]
+    for r in range(ints[2]):
+        key = replicate_key(u64(ints[0]), ints[1] + r)
+        i = ints[3]
+        while i < stop:
+            m = BLOCK if stop - i > BLOCK else stop - i
+            for j in range(m):
+                u = POINTS(key, u64(i + j))
+                for k in range(CHANNELS):
+                    STORE(u, query, parameters[k], x, k * SLOTS * BLOCK + j)
+            for k in range(CHANNELS * SLOTS):
+                merge_block(x, k * BLOCK, m, out, (r * CHANNELS * SLOTS + k) * STATE)
+            i += m
+
+
+def store_last(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
+    """Evaluate an integrand into its slot of the block."""
+    x[at] = INTEGRAND(u, query, p)
+
+
+def store_more(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
+    """Evaluate an integrand into its slot and the rest into the slots after it."""
+    x[at] = INTEGRAND(u, query, p)
+    REST(u, query, p, x, at + BLOCK)
+
+
+def merge_block(x: Any, start: int, m: int, out: Any, at: int) -> None:
+    """Merge x[start : start + m] into the state at out[at].
+
+    Deviations are taken from the first value, so a constant has exactly zero spread; blocks merge
+    by Chan, Golub, LeVeque 1979, which stays exact where the one-pass formula cancels.
+    """
+    origin = x[start]
+    total = 0.0
+    squares = 0.0
+    largest = word_of(out[at + 3])
+    for j in range(m):
+        d = x[start + j] - origin
+        total += d
+        squares += d * d
+        word = word_of(x[start + j])
+        largest = word if word > largest else largest
+    count = out[at]
+    merged = count + m
+    shift = origin + total / m - out[at + 1]
+    out[at] = merged
+    out[at + 1] += shift * (m / merged)
+    out[at + 2] += (squares - total * total / m) + shift * shift * (count * m / merged)
+    out[at + 3] = double_of(largest)
+

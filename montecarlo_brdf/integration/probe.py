@@ -1,0 +1,107 @@
+"""A first look at a model by plain Python calls at a few directions, before anything is compiled.
+
+It tells a user's mistake in one sentence, and what sampling can not see by itself: a lobe so
+narrow that no sample hits it, and a divergence at the horizon that makes a variance infinite.
+"""
+from __future__ import annotations
+
+import math
+import numbers
+from typing import Any
+
+from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.loading import raised
+from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.vectors import Vec, from_degrees, mirrored
+
+#: Ordinary directions and numbers: any of them must work for any model.
+DIRECTIONS = (from_degrees(20.0, 0.0), from_degrees(50.0, 130.0), from_degrees(70.0, 250.0))
+UNIFORMS = (0.3, 0.6, 0.4)
+
+
+def check(model: Model, p: Any) -> None:
+    """Raise ModelError unless f, sample and pdf return what the contract says."""
+    model = model.of(p)
+    for one in channels(p):
+        ready = _called(model, "prepare", model.prepared, one)
+        for wo in DIRECTIONS:
+            for wi in DIRECTIONS:
+                _number(model, "f", _called(model, "f", model.f, wo, wi, ready))
+        if model.sample:
+            drawn = _called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)
+            if not isinstance(drawn, tuple) or len(drawn) not in (3, 4):
+                raise ModelError(
+                    f"sample of model {model.name} must return (x, y, z) or (x, y, z, weight), "
+                    f"not {_shown(drawn)}"
+                )
+            for value in drawn:
+                _number(model, "sample", value)
+        if model.pdf:
+            pair = DIRECTIONS[0], DIRECTIONS[1]
+            _number(model, "pdf", _called(model, "pdf", model.pdf, *pair, ready))
+
+
+def _called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
+    """The result, NaN where Python raises what compiled arithmetic does not."""
+    try:
+        return function(*arguments)
+    except (ZeroDivisionError, OverflowError):
+        return math.nan
+    except Exception as error:
+        if "math domain error" in str(error):
+            return math.nan
+        file = model.namespace.get("__file__", "")
+        raise ModelError(f"{member} of model {model.name} {raised(error, file)}") from error
+
+
+def _number(model: Model, member: str, value: Any) -> None:
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        raise ModelError(f"{member} of model {model.name} must return a number, not {_shown(value)}")
+
+
+def _shown(value: Any) -> str:
+    kind = "None" if value is None else f"a value of type {type(value).__name__}"
+    return f"{kind} of length {len(value)}" if isinstance(value, (tuple, list)) else kind
+
+
+def returns_weight(model: Model) -> bool:
+    """Whether `sample` returns its weight f cos / pdf as a fourth number."""
+    if model.sample is None:
+        return False
+    defaults = model.verified[0] if model.verified else model.parameters()
+    ready = model.prepared(channels(defaults)[0])
+    return len(_called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)) == 4
+
+
+def highest(model: Model, ready: Any, wo: Vec) -> float:
+    """The largest f at the mirror direction and 64 directions in the plane of incidence.
+
+    An estimate whose total weight is not well above this value may have missed a lobe.
+    """
+    around = [from_degrees(89.5 * k / 32.0, 180.0 * half) for k in range(32) for half in (0, 1)]
+    found = [_value(model, wo, wi, ready) for wi in (mirrored(wo), *around)]
+    return max((v for v in found if math.isfinite(v)), default=0.0)
+
+
+def horizon_exponent(model: Model, ready: Any, wo: Vec) -> float:
+    """The s in f ~ mu_i^-s as wi nears the horizon, the largest over 16 azimuths.
+
+    The m-th moment of f cos/pdf is finite under pdf ~ mu_i^c iff m (s - 1 + c) < 1 + c.
+    """
+    worst = 0.0
+    for k in range(16):
+        near, nearer = (_at_cosine(mu, 2.0 * math.pi * k / 16.0) for mu in (1e-6, 1e-8))
+        a, b = _value(model, wo, near, ready), _value(model, wo, nearer, ready)
+        if a > 0.0 and b > a and math.isfinite(b):
+            worst = max(worst, math.log(b / a) / math.log(100.0))
+    return worst
+
+
+def _at_cosine(mu: float, phi: float) -> Vec:
+    s = math.sqrt(1.0 - mu * mu)
+    return s * math.cos(phi), s * math.sin(phi), mu
+
+
+def _value(model: Model, wo: Vec, wi: Vec, ready: Any) -> float:
+    value = _called(model, "f", model.f, wo, wi, ready)
+    return float(value) if isinstance(value, numbers.Real) else math.nan

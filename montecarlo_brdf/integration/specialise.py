@@ -1,0 +1,170 @@
+"""Bind a model's functions into a kernel template, and name the result by its content.
+
+A kernel is a plain Python function whose global names stand for other functions. `specialised`
+clones it with those names bound, compiling everything it reaches (plain functions, functions of
+the user's own modules, functions that were already jitted) with our options. `fingerprint` hashes
+all that this depends on, code, constants, arrays, defaults and closure cells of every function
+reached, so a cached kernel can never be stale.
+"""
+from __future__ import annotations
+
+import hashlib
+import os
+import types
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+Function = Callable[..., Any]
+STANDARD = ("math", "cmath", "builtins", "numpy", "numba")
+
+
+def plain(value: Any) -> Any:
+    """The Python function behind a numba dispatcher; anything else as it is."""
+    return getattr(value, "py_func", value)
+
+
+def is_own_module(value: Any) -> bool:
+    """A module whose functions must be compiled with the kernel (not math, not numpy)."""
+    return isinstance(value, types.ModuleType) and value.__name__.split(".")[0] not in STANDARD
+
+
+def names_used(code: types.CodeType) -> Iterator[str]:
+    """Global and attribute names in a code object and those nested in it, in a fixed order."""
+    yield from code.co_names
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            yield from names_used(constant)
+
+
+def references(function: types.FunctionType, bound: Mapping[str, Any]) -> dict[str, Any]:
+    """The global names that `function` uses and what each stands for, `bound` first."""
+    found = {}
+    for name in sorted(set(names_used(function.__code__))):
+        if name in bound:
+            found[name] = bound[name]
+        elif name in function.__globals__:
+            found[name] = function.__globals__[name]
+    return found
+
+
+def module_functions(module: types.ModuleType, names: Iterator[str]) -> dict[str, Any]:
+    """The members of a user's own module that `names` mention."""
+    return {n: getattr(module, n) for n in sorted(set(names)) if hasattr(module, n)}
+
+
+class Fingerprint:
+    """Content hash of values and of all the code that a function reaches."""
+
+    def __init__(self) -> None:
+        self._hash = hashlib.blake2b(digest_size=16)
+        self._seen: dict[int, int] = {}
+
+    def hexdigest(self) -> str:
+        return self._hash.hexdigest()
+
+    def add(self, value: Any, bound: Mapping[str, Any] | None = None) -> None:
+        """Take in any value: code is followed, containers are walked, the rest goes by repr."""
+        value = plain(value)
+        if isinstance(value, types.FunctionType):
+            self._add_function(value, bound or {})
+        elif isinstance(value, types.CodeType):
+            self._add_code(value)
+        elif isinstance(value, (tuple, list)):
+            self._add_sequence(value)
+        elif isinstance(value, (set, frozenset)):
+            self._add_sequence(sorted(value, key=repr))
+        elif isinstance(value, dict):
+            self._add_sequence(sorted(value.items(), key=repr))
+        elif hasattr(value, "tobytes") and hasattr(value, "dtype"):
+            self._text(f"array {value.dtype} {value.shape}")
+            self._hash.update(value.tobytes())
+        elif isinstance(value, (types.ModuleType, type)):
+            self._text(f"{type(value).__name__} {value.__name__}")
+        elif isinstance(value, types.BuiltinFunctionType):
+            self._text(f"builtin {value.__module__}.{value.__qualname__}")
+        elif " at 0x" in repr(value):
+            self._hash.update(os.urandom(16))  # no known content: never the same kernel again
+        else:
+            self._text(f"{type(value).__name__} {value!r}")
+
+    def _text(self, text: str) -> None:
+        self._hash.update(f"{len(text)}:{text};".encode())
+
+    def _add_sequence(self, values: Any) -> None:
+        self._text(f"{type(values).__name__} of {len(values)}")
+        for value in values:
+            self.add(value)
+
+    def _add_code(self, code: types.CodeType) -> None:
+        self._text(code.co_name)
+        self._hash.update(code.co_code)
+        self.add(code.co_consts)
+        self.add(code.co_names)
+        self.add(code.co_varnames + code.co_freevars + code.co_cellvars)
+
+    def _add_function(self, function: types.FunctionType, bound: Mapping[str, Any]) -> None:
+        if id(function) in self._seen:
+            self._text(f"function {self._seen[id(function)]} again")
+            return
+        self._seen[id(function)] = len(self._seen)
+        self._add_code(function.__code__)
+        self.add(function.__defaults__)
+        self.add([cell.cell_contents for cell in function.__closure__ or ()])
+        for name, value in references(function, bound).items():
+            self._text(name)
+            self.add(value)
+            if is_own_module(value):
+                self.add(list(module_functions(value, names_used(function.__code__)).items()))
+
+
+class Specialiser:
+    """Compiles a function and everything it reaches, each once."""
+
+    def __init__(self, compile: Callable[[types.FunctionType], Any], twins: Mapping[Any, Any]):
+        self._compile = compile
+        self._done: dict[int, Any] = {}
+        self._twins = {id(f): twin for f, twin in twins.items()}
+        self._alive: list[Any] = list(twins)
+
+    def bind(self, function: types.FunctionType, bound: Mapping[str, Any]) -> Any:
+        """`function` compiled with the names in `bound` standing for the functions given."""
+        compiled = self._compile(self.clone(function, bound))
+        self._twins[id(compiled)] = compiled
+        return compiled
+
+    def clone(self, function: types.FunctionType, bound: Mapping[str, Any]) -> types.FunctionType:
+        """`function` with every global name it uses replaced by its compiled counterpart."""
+        scope: dict[str, Any] = {"__builtins__": __builtins__, "__name__": function.__module__}
+        for name, value in references(function, bound).items():
+            scope[name] = self._counterpart(value, function.__code__)
+        cells = tuple(
+            types.CellType(self._counterpart(c.cell_contents, function.__code__))
+            for c in function.__closure__ or ()
+        )
+        clone = types.FunctionType(
+            function.__code__, scope, function.__name__, function.__defaults__, cells or None
+        )
+        clone.__qualname__ = function.__qualname__
+        return clone
+
+    def _counterpart(self, value: Any, code: types.CodeType) -> Any:
+        if id(value) in self._twins:
+            return self._twins[id(value)]
+        value = plain(value)
+        if isinstance(value, types.FunctionType):
+            return self._function(value)
+        if is_own_module(value):
+            return self._module(value, code)
+        return value
+
+    def _function(self, function: types.FunctionType) -> Any:
+        if id(function) not in self._done:
+            self._alive.append(function)
+            self._done[id(function)] = self._compile(self.clone(function, {}))
+        return self._done[id(function)]
+
+    def _module(self, module: types.ModuleType, code: types.CodeType) -> types.ModuleType:
+        stand_in = types.ModuleType(module.__name__)
+        for name, value in module_functions(module, names_used(code)).items():
+            setattr(stand_in, name, self._counterpart(value, code))
+        return stand_in

@@ -1,0 +1,105 @@
+"""Running a kernel over replicates and samples: cut into calls, spread over threads, merged.
+
+The cut never shows in the result: samples are taken in chunks of fixed size, each from a zero
+state, and merged in a fixed order whatever thread computed them. Memory does not grow with the
+number of samples, and no call lasts long enough to make Ctrl-C wait.
+"""
+from __future__ import annotations
+
+import ctypes
+import itertools
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import NamedTuple
+
+from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.integration.kernel import STATE
+from montecarlo_brdf.integration.native import NativeKernel
+from montecarlo_brdf.statistics import Moments, merged
+
+CHUNK = 1 << 17
+Progress = Callable[[float], None]
+
+
+class Job(NamedTuple):
+    """What to compute: `samples` points in each of `replicates` randomisations of one stream."""
+
+    kernel: NativeKernel
+    reals: Sequence[float]
+    width: int  # numbers of results: channels times integrands
+    key: int
+    replicates: int
+    samples: int
+
+
+class Call(NamedTuple):
+    """One kernel call: samples [start, start + count) of replicates [first, first + many)."""
+
+    first: int
+    many: int
+    start: int
+    count: int
+
+
+def run(job: Job, threads: int = 1, progress: Progress | None = None) -> list[list[Moments]]:
+    """Moments per result and replicate: run(job)[result][replicate]."""
+    stacks: list[list[list[tuple[int, Moments]]]] = [
+        [[] for _ in range(job.replicates)] for _ in range(job.width)
+    ]
+    done = 0
+    for call, states in zip(calls(job), _outcomes(job, threads)):
+        for r in range(call.many):
+            for k in range(job.width):
+                _push(stacks[k][call.first + r], states[r * job.width + k])
+        done += call.many * call.count
+        if progress:
+            progress(done / (job.replicates * job.samples))
+    return [[_total(stack) for stack in row] for row in stacks]
+
+
+def calls(job: Job) -> Iterator[Call]:
+    """All calls of a job: many small replicates in one, or one large replicate in many."""
+    many = max(1, CHUNK // job.samples)
+    for first in range(0, job.replicates, many):
+        for start in range(0, job.samples, CHUNK):
+            yield Call(
+                first, min(many, job.replicates - first), start, min(CHUNK, job.samples - start)
+            )
+
+
+def _outcomes(job: Job, threads: int) -> Iterable[list[Moments]]:
+    """Results of the calls in their order; a bounded number is under way at any time."""
+    if threads == 1 or job.replicates * job.samples <= CHUNK:
+        yield from (_call(job, c) for c in calls(job))
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        queue = calls(job)
+        while batch := list(itertools.islice(queue, 16 * threads)):
+            yield from pool.map(lambda c: _call(job, c), batch)
+
+
+def _call(job: Job, call: Call) -> list[Moments]:
+    key = job.key - (1 << 64) if job.key >= 1 << 63 else job.key
+    ints = (ctypes.c_int64 * 5)(key, call.first, call.many, call.start, call.count)
+    reals = (ctypes.c_double * len(job.reals))(*job.reals)
+    out = (ctypes.c_double * (STATE * job.width * call.many))()
+    status = job.kernel(ctypes.addressof(ints), ctypes.addressof(reals), ctypes.addressof(out))
+    if status != 0:
+        raise ModelError("the model raised an exception while it was sampled")
+    return [Moments(*out[i : i + STATE]) for i in range(0, len(out), STATE)]
+
+
+def _push(stack: list[tuple[int, Moments]], moments: Moments) -> None:
+    """Pairwise summation of a stream: equal ranks merge, as carries do in binary counting."""
+    rank = 0
+    while stack and stack[-1][0] == rank:
+        moments = merged([stack.pop()[1], moments])
+        rank += 1
+    stack.append((rank, moments))
+
+
+def _total(stack: list[tuple[int, Moments]]) -> Moments:
+    total = stack[-1][1]
+    for _, moments in reversed(stack[:-1]):
+        total = merged([moments, total])
+    return total

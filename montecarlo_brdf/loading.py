@@ -1,0 +1,82 @@
+"""Models by name (a file in montecarlo_brdf/models) or by path (a user's own file)."""
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+import traceback
+import types
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from montecarlo_brdf.errors import ModelError, UserError, unknown
+from montecarlo_brdf.model import Model, build, members
+
+FOLDER = Path(__file__).parent / "models"
+
+
+def names() -> list[str]:
+    """The built-in models: every file of the folder that does not start with an underscore."""
+    return sorted(p.stem for p in FOLDER.glob("*.py") if not p.stem.startswith("_"))
+
+
+def load(spec: str, **picks: str) -> Model:
+    """The model `spec`: a built-in name, `my_brdf.py`, or `my_brdf.py:name`.
+
+    picks: one option per choice the model offers, e.g. norm="n+8".
+    Raises UserError for an unknown name or a missing file, ModelError if the file does not load.
+    """
+    spec = str(spec)
+    path, _, member = spec.partition(".py:")
+    if member:
+        namespace = _member(spec, vars(_from_file(Path(path + ".py"))), member)
+    elif spec.endswith(".py"):
+        namespace = vars(_from_file(Path(spec)))
+    elif spec in names():
+        namespace = vars(importlib.import_module(f"montecarlo_brdf.models.{spec}"))
+    else:
+        raise UserError(unknown("model", spec, names()) + ", or give the path of a .py file")
+    model = build(spec, namespace, {}, built_in=spec in names())
+    return model.variant(**picks) if picks else model
+
+
+def _from_file(path: Path) -> types.ModuleType:
+    """Run a user's file as a module; its folder is importable while and after it runs."""
+    if not path.is_file():
+        raise UserError(f"no model file {path}")
+    folder = str(path.resolve().parent)
+    if folder not in sys.path:
+        sys.path.insert(0, folder)
+    module = types.ModuleType(path.stem)
+    module.__file__ = str(path)
+    try:
+        exec(compile(path.read_bytes(), str(path), "exec"), vars(module))  # noqa: S102
+    except SyntaxError as error:
+        raise ModelError(f"{path}, line {error.lineno}: {error.msg}") from error
+    except (Exception, SystemExit) as error:
+        raise ModelError(f"{path} {raised(error, path)} while it was loaded") from error
+    if not callable(getattr(module, "f", None)) and not list(members(vars(module))):
+        raise ModelError(f"{path} defines no function f(wo, wi, p)")
+    return module
+
+
+def _member(spec: str, namespace: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    """The model `name` within a file: a class with f, or a function with name_sample, name_pdf."""
+    value = namespace.get(name)
+    if isinstance(value, type):
+        inside = {k: getattr(value, k) for k in dir(value) if not k.startswith("__")}
+        return {**namespace, **{k: None for k in ("sample", "pdf")}, **inside}
+    if not callable(value):
+        raise UserError(unknown(f"model in {spec.rpartition(':')[0]}", name, members(namespace)))
+    own = {k: namespace.get(f"{name}_{k}") for k in ("sample", "pdf")}
+    params = namespace.get(f"{name}_Params") or namespace.get("Params")
+    return {**namespace, "f": value, **own, **({"Params": params} if params else {})}
+
+
+def raised(error: BaseException, path: Path | str) -> str:
+    """'raised ValueError (line 3): message', the line being the last one inside `path`."""
+    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
+    where = f" (line {lines[-1]})" if lines else ""
+    message = " ".join(str(error).split())
+    return f"raised {type(error).__name__}{where}{': ' + message if message else ''}"

@@ -1,0 +1,103 @@
+"""Estimates with their error bars.
+
+An estimate comes from R replicates, independent randomisations of a point set: the spread of
+their means is an honest error bar for any point set, and standardised errors follow Student's t
+with R - 1 degrees of freedom (never a normal).
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from montecarlo_brdf import student
+
+#: No error bar is smaller than rounding: 4 units of the last place of the mean.
+FLOOR = 4.0 * 2.0**-52
+
+
+class Moments(NamedTuple):
+    """Count, mean, sum of squared deviations and largest value of some samples."""
+
+    count: float
+    mean: float
+    squares: float
+    largest: float
+
+
+class Estimate(NamedTuple):
+    """An estimated mean with its standard error; prints as 0.68899(76)."""
+
+    mean: float
+    stderr: float
+    samples: int
+    replicates: tuple[float, ...]  # their means
+    second_moment: float  # mean of x^2 over all samples
+    largest: float  # largest sample
+
+    @property
+    def dof(self) -> int:
+        """Degrees of freedom of the error bar."""
+        return len(self.replicates) - 1
+
+    def half_width(self, level: float) -> float:
+        """Half the width of the interval that misses the truth with probability `level`."""
+        return student.quantile(level / 2.0, self.dof) * self.stderr if self.dof > 0 else math.inf
+
+    def effective_samples(self) -> float:
+        """Kish's effective sample size, N mean^2 / E[x^2]."""
+        return self.samples * self.mean**2 / self.second_moment if self.second_moment else 0.0
+
+    def __str__(self) -> str:
+        return with_error(self.mean, self.stderr)
+
+
+def with_error(value: float, error: float) -> str:
+    """'0.68899(76)': the digits in brackets are the standard error of the last digits shown."""
+    if not (math.isfinite(value) and math.isfinite(error)):
+        return f"{value:.6g}({error})"
+    if error == 0.0:
+        return f"{value:.15g}(0)"
+    places = max(0, 1 - math.floor(math.log10(error)))
+    digits = round(error * 10**places)
+    shown = f"{digits}" if places or digits < 100 else f"{error:.0f}"
+    return f"{value:.{places}f}({shown})"
+
+
+def merged(parts: Sequence[Moments]) -> Moments:
+    """Moments of all samples together, merged pairwise so that rounding does not build up."""
+    while len(parts) > 1:
+        pairs = [_pair(*parts[i : i + 2]) for i in range(0, len(parts) - 1, 2)]
+        parts = pairs + ([parts[-1]] if len(parts) % 2 else [])
+    return parts[0]
+
+
+def _pair(a: Moments, b: Moments) -> Moments:
+    """Chan, Golub, LeVeque 1979, the update formula for pairs."""
+    count = a.count + b.count
+    shift = b.mean - a.mean
+    return Moments(
+        count,
+        a.mean + shift * (b.count / count),
+        a.squares + b.squares + shift * shift * (a.count * b.count / count),
+        max(a.largest, b.largest),
+    )
+
+
+def estimate(replicates: Sequence[Moments]) -> Estimate:
+    """The mean over equally large replicates and the standard error from their spread."""
+    means = tuple(m.mean for m in replicates)
+    count = len(means)
+    mean = math.fsum(means) / count if all(map(math.isfinite, means)) else math.nan
+    spread = math.fsum((m - mean) ** 2 for m in means) if math.isfinite(mean) else math.nan
+    stderr = math.sqrt(spread / (count * (count - 1))) if count > 1 else math.inf
+    floor = FLOOR * abs(mean)
+    total = merged(list(replicates))
+    return Estimate(
+        mean,
+        max(stderr, floor) if math.isfinite(mean) else math.nan,
+        int(total.count),
+        means,
+        total.squares / total.count + total.mean**2,
+        total.largest,
+    )
