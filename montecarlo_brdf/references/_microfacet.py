@@ -1,0 +1,187 @@
+"""Normal distributions in slope space, their exact Smith masking, and other visibility terms.
+
+P22(t) is the density of slopes (Beckmann & Spizzichino 1963; Trowbridge & Reitz 1975 = GGX;
+Blinn 1977), D = P22/cos^4(theta_h), and Smith's Lambda follows by integration over the slopes that
+face away (Heitz 2014, eq. 72); for Blinn-Phong that integral is an incomplete beta function, so
+all three are exact. A masking below is G/(mu_i mu_o), which stays finite at the horizon.
+"""
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from montecarlo_brdf.references._gamma import half_step
+from montecarlo_brdf.references._quadrature import TINY, Geometry, Kinks
+from montecarlo_brdf.references._rules import Array
+
+BEYOND = 50.0  # ln of the decay at which a tail no longer counts: exp(-50) = 2e-22
+
+
+class Distribution(NamedTuple):
+    """A slope density P22(t), Smith's Lambda(mu), the scale of slopes and where they end."""
+
+    p22: Callable[[Array], Array]
+    lam: Callable[[Array], Array]
+    alpha: float
+    reach: float
+
+
+def _sine_squared(mu: Array) -> Array:
+    return np.maximum((1.0 - mu) * (1.0 + mu), TINY)
+
+
+def ggx(alpha: float) -> Distribution:
+    """Walter et al. 2007, eqs. 33-34."""
+
+    def lam(mu: Array) -> Array:
+        return 0.5 * np.sqrt(mu * mu + alpha * alpha * _sine_squared(mu)) / mu - 0.5
+
+    return Distribution(lambda t: (alpha / (alpha**2 + t * t)) ** 2 / np.pi, lam, alpha, np.inf)
+
+
+def beckmann(alpha: float) -> Distribution:
+    """Walter et al. 2007, eqs. 25-26."""
+    from scipy.special import erfc
+
+    def lam(mu: Array) -> Array:
+        a = mu / (alpha * np.sqrt(_sine_squared(mu)))
+        return 0.5 * (np.exp(-a * a) / (a * math.sqrt(np.pi)) - erfc(a))
+
+    def p22(t: Array) -> Array:
+        return np.exp(-((t / alpha) ** 2)) / (np.pi * alpha * alpha)
+
+    return Distribution(p22, lam, alpha, alpha * math.sqrt(BEYOND))
+
+
+@lru_cache(maxsize=64)
+def _hidden(n: float) -> tuple[float, Array]:
+    """Chebyshev series of I_{s^2}(n/2+1, 1/2) in z, mu = end (1 - z^4); it is 0 beyond mu = end.
+
+    scipy's incomplete beta takes 3 us a value. Its (1 - mu)^(n/2+1) at the normal is smooth in z.
+    """
+    from scipy.special import betaincc
+
+    end = math.sqrt(-math.expm1(-2.0 * BEYOND / (n + 2.0)))
+    z = 0.5 + 0.5 * np.cos(np.pi * (np.arange(96) + 0.5) / 96)
+    mu = end * (1.0 - z**4)
+    return end, np.polynomial.chebyshev.chebfit(
+        2.0 * z - 1.0, betaincc(0.5, 0.5 * n + 1, mu**2), 95
+    )
+
+
+def blinn_phong(n: float) -> Distribution:
+    """Blinn 1977, normalised; Lambda derived from P22 and exact, unlike the usual Beckmann fit."""
+
+    def lam(mu: Array) -> Array:
+        end, series = _hidden(n)
+        z = np.sqrt(np.sqrt(np.clip(1.0 - mu / end, 0.0, 1.0)))
+        hidden = np.polynomial.chebyshev.chebval(2.0 * z - 1.0, series)
+        scale = half_step(0.5 * n + 1.0) / (math.sqrt(np.pi) * (n + 1.0))
+        facing = scale * np.exp((0.5 * n + 1.0) * np.log(_sine_squared(mu))) / mu
+        return np.where(mu < end, facing - 0.5 * hidden, 0.0)
+
+    def p22(t: Array) -> Array:
+        return (n + 2.0) / (2.0 * np.pi) * np.exp(-(0.5 * n + 2.0) * np.log1p(t * t))
+
+    reach = math.sqrt(math.expm1(min(2.0 * BEYOND / (n + 2.0), 100.0)))
+    return Distribution(p22, lam, math.sqrt(2.0 / (n + 2.0)), reach)
+
+
+def distribution(name: str, alpha: float | None = None, n: float | None = None) -> Distribution:
+    width = n if name == "blinn_phong" else alpha
+    if width is None:
+        raise TypeError(f"{name} needs {'n' if name == 'blinn_phong' else 'alpha'}")
+    return {"ggx": ggx, "beckmann": beckmann, "blinn_phong": blinn_phong}[name](width)
+
+
+Visibility = Callable[[Geometry, Distribution], Array]
+
+
+def smith(g: Geometry, d: Distribution) -> Array:
+    """Height-correlated, Heitz 2014, eq. 99."""
+    return 1.0 / ((1.0 + d.lam(g.mu_i) + d.lam(np.asarray(g.mu_o))) * g.mu_i * g.mu_o)
+
+
+def separable(g: Geometry, d: Distribution) -> Array:
+    return 1.0 / ((1.0 + d.lam(g.mu_i)) * (1.0 + d.lam(np.asarray(g.mu_o))) * g.mu_i * g.mu_o)
+
+
+def v_cavity(g: Geometry, d: Distribution) -> Array:
+    """Torrance & Sparrow 1967; Cook & Torrance 1982, eq. 15."""
+    groove = 2.0 * g.h_n * np.minimum(g.mu_i, g.mu_o) / g.h_v
+    return np.minimum(1.0, groove) / (g.mu_i * g.mu_o)
+
+
+def v_cavity_kinks(k: Array) -> tuple[Array, Array]:
+    """Slopes where min(1, 2 (n.h) min(mu_i, mu_o)/(h.v)) changes branch, in increasing order.
+
+    With t = tan x and k = tan a these are: light masked from x = 30 degrees + a/3; view masked from
+    x = 90 degrees - a; equal cosines at x = a. They meet at a = 45 degrees, that is at k = 1.
+    """
+    light = np.tan(np.pi / 6.0 + np.arctan(k) / 3.0)
+    return np.where(k > 1.0, 1.0 / np.maximum(k, 1.0), light), np.where(k > 1.0, k, light)
+
+
+def _walter_g1(mu: Array, alpha: float) -> Array:
+    """Walter et al. 2007, eq. 27: a rational fit of Beckmann's G1, 1 from a = 1.6."""
+    a = mu / (alpha * np.sqrt(_sine_squared(mu)))
+    fit = (3.535 + 2.181 * a) * a / (1.0 + (2.276 + 2.577 * a) * a)
+    return np.where(a < 1.6, fit, 1.0)
+
+
+def walter(g: Geometry, d: Distribution) -> Array:
+    both = _walter_g1(g.mu_i, d.alpha) * _walter_g1(np.asarray(g.mu_o), d.alpha)
+    return both / (g.mu_i * g.mu_o)
+
+
+def walter_cosine(alpha: float) -> float:
+    """The cosine at which the rational fit ends, with a small jump: a = 1.6."""
+    return 1.6 * alpha / math.hypot(1.0, 1.6 * alpha)
+
+
+def cosine_kinks(mu_o: float, mu: float) -> Kinks:
+    """The slopes at which mu_i = mu: roots of (mu+mu_o) t^2 - 2 k mu_o t + mu - mu_o = 0."""
+
+    def kinks(k: Array) -> tuple[Array, Array]:
+        root = np.sqrt(np.maximum((k * mu_o) ** 2 + (mu_o - mu) * (mu_o + mu), 0.0))
+        far = np.maximum(k * mu_o + np.copysign(root, k), 0.0) / (mu + mu_o)
+        near = (mu - mu_o) / (k * mu_o + np.copysign(np.maximum(root, TINY), k))
+        return np.minimum(near, far), np.maximum(near, far)
+
+    return kinks
+
+
+def kelemen(g: Geometry, d: Distribution) -> Array:
+    """Kelemen & Szirmay-Kalos 2001: G/(mu_i mu_o) = 1/(h.v)^2."""
+    return 1.0 / g.h_v**2
+
+
+def implicit(g: Geometry, d: Distribution) -> Array:
+    return np.ones_like(g.mu_i)
+
+
+def none(g: Geometry, d: Distribution) -> Array:
+    return 1.0 / (g.mu_i * g.mu_o)
+
+
+def schlick_k(g: Geometry, k: float) -> Array:
+    """Schlick 1994 as used with GGX by Karis 2013: mu/(mu (1-k) + k) for either direction."""
+    return 1.0 / ((g.mu_i * (1.0 - k) + k) * (g.mu_o * (1.0 - k) + k))
+
+
+def schlick_k_direct(g: Geometry, d: Distribution) -> Array:
+    return schlick_k(g, (math.sqrt(d.alpha) + 1.0) ** 2 / 8.0)
+
+
+def schlick_k_ibl(g: Geometry, d: Distribution) -> Array:
+    return schlick_k(g, 0.5 * d.alpha)
+
+
+MASKINGS: dict[str, Visibility] = {
+    f.__name__: f
+    for f in (smith, separable, v_cavity, walter, kelemen, implicit, none)
+    + (schlick_k_direct, schlick_k_ibl)
+}

@@ -1,0 +1,133 @@
+"""Deterministic albedos in the domain of half-vector slopes, fitted exactly to the horizon.
+
+With the half vector's slope t = tan(theta_h), its azimuth phi against the view direction and
+k = tan(theta_o) cos(phi) (formulas of the slope domain: Walter et al. 2007, eqs. 13-14, and
+Heitz 2014),
+
+    A = integral dphi integral_0^t_max f mu_i 4 (h.v) cos^3(theta_h) t dt,   t_max = k + sqrt(k^2+1)
+
+and t_max is the image of mu_i = 0. Both variables are logarithmic in the way the problem is:
+
+    k = sinh y, so t_max = e^y, with y = asinh(tan theta_o) sin(beta), beta uniform;
+    t = width sinh v.
+
+So lobes of any width and views at any distance from the horizon cost only logarithmically more
+nodes. Nothing here is shared with the charts of the Monte Carlo estimators.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from montecarlo_brdf.references._rules import (
+    Array,
+    Sum,
+    clustered,
+    converge,
+    node_count,
+    panels,
+    total,
+)
+from montecarlo_brdf.references._truth import sine
+
+TINY = 1e-300
+# A depends on tan(theta_o) through its square: below this the view is the normal, to 1e-18
+NORMAL_VIEW = 1e-9
+
+
+class Geometry(NamedTuple):
+    """All that an isotropic reflection depends on; t = tan(theta_h), k = tan(theta_o) cos(phi)."""
+
+    mu_o: float
+    mu_i: Array
+    h_n: Array
+    h_v: Array
+    t: Array
+    k: Array
+
+
+Brdf = Callable[[Geometry], Array]
+Kinks = Callable[[Array], tuple[Array, ...]]
+
+
+def azimuths(tan_o: float, n: int, break_at: float | None) -> tuple[Array, Array]:
+    """Nodes k and weights of the integral over the half circle of phi, as columns.
+
+    Without a break: the midpoint rule in beta, geometric because the integrand is periodic.
+    With a break at k = break_at (the view's own plane if that is beyond tan_o) the integrand is
+    only piecewise smooth: Gauss on either side.
+    """
+    end = np.arcsinh(tan_o)
+    edges = [-0.5 * np.pi, 0.5 * np.pi]
+    if break_at is None:
+        beta = (np.arange(n) + 0.5) * (np.pi / n) - 0.5 * np.pi
+        weight = np.full(n, np.pi / n)
+    else:
+        if abs(break_at) < tan_o:
+            edges.insert(1, float(np.arcsin(np.arcsinh(break_at) / end)))
+        beta, weight = panels(clustered(n), edges)
+    y = end * np.sin(beta)
+    to_end = 2.0 * end * np.sin(0.25 * np.pi - 0.5 * beta) ** 2
+    to_start = 2.0 * end * np.sin(0.25 * np.pi + 0.5 * beta) ** 2
+    sine_phi = np.sqrt(np.sinh(to_end) * np.sinh(to_start))  # times tan_o
+    return np.sinh(y)[:, None], (weight * end * np.cos(beta) * np.cosh(y) / sine_phi)[:, None]
+
+
+def slopes(
+    mu_o: float, k: Array, edges: list[Array], width: float, n: int
+) -> tuple[Geometry, Array]:
+    """Nodes in t on every panel between the edges (columns, like k), and the weights t dt."""
+    root = np.sqrt(k * k + 1.0)
+    t_max = np.where(k > 0.0, k + root, 1.0 / (root + np.abs(k)))
+    nodes = clustered(n)
+    last = np.arcsinh(t_max / width)
+    ends = [np.arcsinh(edge / width) for edge in edges]
+    spans = list(zip(ends[:-1], ends[1:], strict=True))
+    v = np.concatenate([a + (b - a) * nodes.x for a, b in spans], axis=1)
+    below = np.concatenate([(last - b) + (b - a) * nodes.rest for a, b in spans], axis=1)
+    weight = np.concatenate([(b - a) * nodes.weight for a, b in spans], axis=1)
+    grow = np.exp(v)
+    shrink = 1.0 / grow
+    t = 0.5 * width * (grow - shrink)
+    # t_max - t without subtracting: it decides mu_i near the horizon
+    to_horizon = -0.5 * width * np.expm1(-below) * (np.exp(last) + shrink)
+    square = 1.0 + t * t
+    mu_i = np.clip(mu_o * to_horizon * (t + 1.0 / t_max) / square, TINY, 1.0)
+    h_n = 1.0 / np.sqrt(square)
+    geometry = Geometry(mu_o, mu_i, h_n, mu_o * (1.0 + k * t) * h_n, t, k)
+    return geometry, weight * t * (0.5 * width) * (grow + shrink)
+
+
+def slope_albedo(
+    brdf: Brdf,
+    mu_o: float,
+    *,
+    width: float,
+    reach: float = np.inf,
+    kinks: Kinks | None = None,
+    azimuth_break: float | None = None,
+) -> tuple[float, float]:
+    """Albedo of an isotropic f and a bound on its error.
+
+    `width` is the lobe's scale in slope, `reach` the slope beyond which it is below 1e-20 of its
+    peak, `kinks(k)` the slopes at which f has a kink, `azimuth_break` the k at which they change
+    their order.
+    """
+    if not 0.0 < mu_o <= 1.0:
+        raise ValueError(f"cos_theta must lie in (0, 1], not {mu_o!r}")
+    tan_o = max(sine(mu_o) / mu_o, NORMAL_VIEW)
+    depth = np.arcsinh(min(tan_o + np.hypot(tan_o, 1.0), reach) / width)
+    n_azimuth, n_slope = 8.0 + 6.0 * np.arcsinh(tan_o), 20.0 + 4.0 * depth
+
+    def rule(size: float) -> Sum:
+        k, azimuth_weight = azimuths(tan_o, node_count(size * n_azimuth), azimuth_break)
+        end = np.minimum(k + np.hypot(k, 1.0), reach)
+        inner = [np.clip(edge, 0.0, end) for edge in (kinks(k) if kinks else ())]
+        g, weight = slopes(
+            mu_o, k, [np.zeros_like(k), *inner, end], width, node_count(size * n_slope)
+        )
+        density = brdf(g) * g.mu_i * g.h_v * (g.h_n * g.h_n * g.h_n)
+        return total(8.0 * azimuth_weight * weight * density)  # twice the half circle
+
+    return converge(rule)

@@ -1,0 +1,53 @@
+"""Ashikhmin & Shirley, "An anisotropic Phong BRDF model", JGT 5(2) 2000, with n_u = n_v = n.
+
+    f = 28 rd/(23 pi) (1 - rs) (1 - (1 - mu_i/2)^5)(1 - (1 - mu_o/2)^5)                 (eq. 5)
+        + (n+1)/(8 pi) (n.h)^n F(h.v)/((h.v) max(mu_i, mu_o)),  F Schlick's with rs     (eq. 4)
+
+The diffuse part has A = rd (1 - rs)(1 - (1 - mu_o/2)^5); the rest is quadrature, with panels split
+at mu_i = mu_o.
+"""
+
+import math
+
+import numpy as np
+
+from montecarlo_brdf.references import _fresnel
+from montecarlo_brdf.references import _microfacet as microfacet
+from montecarlo_brdf.references._bihemispherical import hemispherical_mean
+from montecarlo_brdf.references._quadrature import Geometry, slope_albedo
+from montecarlo_brdf.references._rules import Array, independent
+from montecarlo_brdf.references._truth import EPSILON, Truth
+
+RECIPROCAL = True
+SOURCE = "closed diffuse part + quadrature in half-vector slopes"
+
+
+def _specular(mu_o: float, rs: float, n: float) -> tuple[float, float]:
+    d = microfacet.blinn_phong(n)
+
+    def brdf(g: Geometry) -> Array:
+        lobe = (n + 1.0) / (8.0 * math.pi) * np.exp(-0.5 * n * np.log1p(g.t * g.t))
+        return lobe * _fresnel.schlick(g.h_v, rs) / (g.h_v * np.maximum(g.mu_i, g.mu_o))
+
+    def equal_cosines(k: Array) -> tuple[Array]:
+        return (np.maximum(k, 0.0),)
+
+    return slope_albedo(
+        brdf, mu_o, width=d.alpha, reach=d.reach, kinks=equal_cosines, azimuth_break=0.0
+    )
+
+
+def _sum(diffuse: float, specular: tuple[float, float]) -> Truth:
+    return independent((diffuse + specular[0], specular[1] + 16.0 * EPSILON * diffuse), SOURCE)
+
+
+def albedo(cos_theta_o: float, *, rd: float, rs: float, n: float) -> Truth:
+    # 1 - (1 - x)^5 without cancellation, x = mu_o/2
+    polynomial = -math.expm1(5.0 * math.log1p(-0.5 * cos_theta_o))
+    return _sum(rd * (1.0 - rs) * polynomial, _specular(cos_theta_o, rs, n))
+
+
+def bihemispherical(*, rd: float, rs: float, n: float) -> Truth:
+    width = math.sqrt(2.0 / (n + 2.0))
+    specular = hemispherical_mean(lambda mu: _specular(mu, rs, n), width)
+    return _sum(23.0 / 28.0 * rd * (1.0 - rs), specular)
