@@ -29,8 +29,9 @@ _HOMES = {
     "directional_albedo": "integration.estimators",
     "reverse_albedo": "integration.estimators",
     "bihemispherical_albedo": "integration.estimators",
-    "furnace": "checks.furnace",
-    "identities": "checks.identities",
+    "hemisphere_integral": "integration.estimators",
+    "furnace": "verify",
+    "identities": "verify",
 }
 
 __all__ = ["__version__", *_HOMES]

@@ -26,7 +26,7 @@ class NoParams(NamedTuple):
     """The parameters of a model that has none."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Model:
     """A BRDF with everything that is known about it. Make one with `load`."""
 

@@ -3,12 +3,12 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.integration import build, integrands, kernel, parameters, probe, work
-from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.model import Model, NoParams, channels
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.statistics import Estimate, estimate
@@ -17,6 +17,14 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 REPLICATES = 16
 SAMPLERS = ("uniform", "cosine", "own")
 MOST_SAMPLES = 1 << 40
+
+
+class Subject(NamedTuple):
+    """What is integrated: a name for its streams, functions to bind, and K parameter sets."""
+
+    identity: tuple[str, ...]
+    functions: Mapping[str, Any]
+    sets: list[Any]
 
 
 class Plan(NamedTuple):
@@ -144,23 +152,45 @@ def estimates(
     model: Model, p: Any, fixed: Vec, names: Sequence[str], plan: Plan, label: tuple[Any, ...]
 ) -> list[list[Estimate]]:
     """Estimates of several integrands on the same points: result[channel][integrand]."""
+    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
+    subject = Subject(
+        (model.name, *model.picks.values(), *map(repr, p)),
+        {k: v for k, v in bound.items() if v is not None},
+        [model.prepared(c) for c in channels(p)],
+    )
+    return evaluate(subject, fixed, [getattr(integrands, n) for n in names], plan, label)
+
+
+def hemisphere_integral(
+    function: Any, p: Any = NoParams(), *, sampler: str = "uniform", plan: Plan = Plan()
+) -> Estimate:
+    """The integral of function(w, p) over the hemisphere, per solid angle, by uniform or cosine
+    sampling."""
+    if sampler not in SAMPLERS[:2]:
+        raise UserError(unknown("sampler", sampler, SAMPLERS[:2]))
+    subject = Subject((function.__qualname__, *map(repr, p)), {"F": function}, [p])
+    kind = integrands.hemisphere_uniform if sampler == "uniform" else integrands.hemisphere_cosine
+    return evaluate(subject, (0.0, 0.0, 1.0), [kind], plan, ("hemisphere", sampler))[0][0]
+
+
+def evaluate(
+    subject: Subject, fixed: Vec, functions: Sequence[Any], plan: Plan, label: tuple[Any, ...]
+) -> list[list[Estimate]]:
+    """The same for any functions bound into integrands; `label` names the stream with the subject."""
     check_samples(plan.samples)
     if plan.points not in SETS:
         raise UserError(unknown("point set", plan.points, SETS))
-    sets = [model.prepared(c) for c in channels(p)]
-    functions = tuple(getattr(integrands, n) for n in names)
     replicates = max(1, min(plan.replicates, plan.samples))
     per_replicate = _per_replicate(plan, replicates)
-    identity = (model.name, *model.picks.values(), *label, *map(repr, p), *fixed)
-    key = stream(plan.seed, plan.points, *identity)
+    key = stream(plan.seed, plan.points, *subject.identity, *label, *fixed)
     rows = []
-    for group in _groups(sets, len(names)):
+    for group in _groups(subject.sets, len(functions)):
         layout, numbers = parameters.pack(group, kernel.QUERY)
-        entry = compiled(model, plan.points, functions, layout)
-        reals = (*fixed, 0.0, *numbers)
-        job = work.Job(entry, reals, len(group) * len(names), key, replicates, per_replicate)
+        entry = compiled(subject, plan.points, tuple(functions), layout)
+        width = len(group) * len(functions)
+        job = work.Job(entry, (*fixed, 0.0, *numbers), width, key, replicates, per_replicate)
         results = [estimate(m) for m in work.run(job, plan.threads, plan.progress)]
-        rows += [results[i : i + len(names)] for i in range(0, len(results), len(names))]
+        rows += [results[i : i + len(functions)] for i in range(0, width, len(functions))]
     return rows
 
 
@@ -180,15 +210,14 @@ def _per_replicate(plan: Plan, replicates: int) -> int:
     return each
 
 
-def compiled(model: Model, points: str, functions: tuple[Any, ...], layout: Any) -> Any:
-    """The kernel for a model; numba's complaints become one sentence."""
-    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
-    given = {k: v for k, v in bound.items() if v is not None}
+def compiled(subject: Subject, points: str, functions: tuple[Any, ...], layout: Any) -> Any:
+    """The kernel for a subject; numba's complaints become one sentence."""
     try:
-        return build.kernel_of(build.Recipe(points, functions, given, layout))
+        return build.kernel_of(build.Recipe(points, functions, subject.functions, layout))
     except Exception as error:
         if type(error).__module__.startswith("numba"):
-            raise ModelError(f"model {model.name} does not compile: {_first_reason(error)}") from error
+            name = subject.identity[0]
+            raise ModelError(f"model {name} does not compile: {_first_reason(error)}") from error
         raise
 
 

@@ -37,6 +37,7 @@ def albedo_own(u: Any, fixed: Any, p: Any) -> float:
     wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
     if wi[2] <= 0.0:
         return 0.0
+    wi = (wi[0], wi[1], wi[2])
     return F(wo, wi, p) * wi[2] / PDF(wo, wi, p)
 
 
@@ -90,6 +91,7 @@ def bihemispherical_own(u: Any, fixed: Any, p: Any) -> float:
     wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
+    wi = (wi[0], wi[1], wi[2])
     return F(wo, wi, p) * wi[2] / PDF(wo, wi, p)
 
 
@@ -99,3 +101,36 @@ def bihemispherical_weighted(u: Any, fixed: Any, p: Any) -> float:
     if wi[2] <= 0.0:
         return 0.0
     return wi[3]
+
+
+def second_uniform(u: Any, fixed: Any, p: Any) -> float:
+    """E[x^2] of `albedo_uniform`, from draws by the model's own sampler, which sees its lobe."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
+    if wi[2] <= 0.0:
+        return 0.0
+    wi = (wi[0], wi[1], wi[2])
+    value = F(wo, wi, p) * wi[2]
+    return value * value * TWO_PI / PDF(wo, wi, p)
+
+
+def second_cosine(u: Any, fixed: Any, p: Any) -> float:
+    """E[x^2] of `albedo_cosine`, from draws by the model's own sampler."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
+    if wi[2] <= 0.0:
+        return 0.0
+    wi = (wi[0], wi[1], wi[2])
+    value = F(wo, wi, p)
+    return value * value * wi[2] * PI / PDF(wo, wi, p)
+
+
+def hemisphere_uniform(u: Any, fixed: Any, p: Any) -> float:
+    """g / pdf with w uniform: E = the integral of g over the hemisphere."""
+    return F(random_hemisphere(u[0], u[1]), p) * TWO_PI
+
+
+def hemisphere_cosine(u: Any, fixed: Any, p: Any) -> float:
+    """g / pdf with w cosine-weighted: E = the integral of g over the hemisphere."""
+    w = random_hemisphere_cosine(u[0], u[1])
+    return F(w, p) * PI / w[2]

@@ -1,0 +1,67 @@
+"""Whether an estimator can be believed for a case: what its own samples can never show.
+
+Cosine sampling of a lobe of width 0.001 may never hit it: all replicates agree and the answer is
+wrong. So the spread an estimator must have is predicted from draws that do see the lobe, the
+model's own sampler, and from the value of f where lobes are expected; and a density that leaves
+f cos/pdf unbounded at the horizon is recognised by the exponent of f there.
+"""
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.integration import probe
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.vectors import Vec
+
+#: Effective samples below which an error bar is not trusted.
+FEWEST = 1000.0
+#: Largest share of the total that a single value may have, seen or expected.
+LARGEST_SHARE = 0.02
+#: cos^c/pdf: f cos / pdf at the mirror direction is f times this
+SCALE = {"uniform": 6.283185307179586, "cosine": 3.141592653589793}
+#: c in pdf ~ mu^c near the horizon
+DENSITY = {"uniform": 0.0, "cosine": 1.0}
+
+
+class Sight(NamedTuple):
+    """What is known about a case before it is sampled."""
+
+    highest: float  # largest f found where a lobe may be, 1/sr
+    exponent: float  # s in f ~ mu_i^-s near the horizon
+
+
+def look(model: Model, ready: Any, fixed: Vec) -> Sight:
+    """Probe f around the mirror direction and at the horizon."""
+    return Sight(
+        probe.highest(model, ready, fixed), probe.horizon_exponent(model, ready, fixed)
+    )
+
+
+def moment_is_finite(moment: int, sampler: str, exponent: float) -> bool:
+    """E[(f cos/pdf)^moment] with f ~ mu^-s, cos/pdf ~ mu^(1-c), pdf ~ mu^c near mu = 0."""
+    c = DENSITY[sampler]
+    return moment * (exponent - 1.0 + c) < 1.0 + c - 1e-3
+
+
+def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | None) -> str | None:
+    """Why the estimate by `sampler` must not be believed, or None.
+
+    `second` estimates E[x^2] of this sampler from draws by the model's own.
+    """
+    if sampler not in SCALE or not e.mean > 0.0:
+        return None
+    if not moment_is_finite(2, sampler, sight.exponent):
+        return f"infinite variance under {sampler} sampling: f grows like mu^-{sight.exponent:.2f}"
+    if not moment_is_finite(4, sampler, sight.exponent):
+        return f"infinite fourth moment under {sampler} sampling: its error bar can not be trusted"
+    expected = sight.highest * SCALE[sampler]
+    if expected > LARGEST_SHARE * e.samples * e.mean:
+        need = expected / (LARGEST_SHARE * e.mean)
+        return f"a lobe that {sampler} sampling hardly hits: needs about {need:.0e} samples"
+    squares = max(e.second_moment, second.mean if second else 0.0)
+    effective = e.samples * e.mean**2 / squares
+    if effective < FEWEST:
+        need = e.samples * FEWEST / effective
+        return f"{effective:.0f} effective samples under {sampler} sampling: needs about {need:.0e}"
+    return None

@@ -1,0 +1,197 @@
+"""The judge: drives a claim until it is decided at its error level, or the samples run out.
+
+Looks double (here: quadruple) the samples; look k may spend 2^-k of the level, so that looking
+often does not raise the false-alarm rate. A refutation counts only when a fresh stream of another
+point set with more replicates refutes it again.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from montecarlo_brdf import student
+from montecarlo_brdf.checks.claim import MeanClaim, Measurement, Reference
+from montecarlo_brdf.checks.hints import hint
+from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.report.findings import Finding
+from montecarlo_brdf.statistics import Estimate
+
+LEVEL = 1e-9
+FIRST_LOOK = 1 << 14
+GROWTH = 4
+CONFIRMING_REPLICATES = 64
+
+
+class Opinion(NamedTuple):
+    """What one estimator says of a claim at one look."""
+
+    measurement: Measurement
+    half_width: float
+    verdict: str
+
+
+def decide(claim: MeanClaim, plan: Plan, known: str | None = None, level: float = LEVEL) -> Finding:
+    """The finding for a claim; `known` is the reason if the model disclaims the property."""
+    opinions: list[Opinion] = []
+    spent = level
+    for look, samples in enumerate(looks(plan.samples), start=1):
+        spent = level * 2.0**-look
+        opinions = judged(claim, claim.measure(plan._replace(samples=samples)), spent)
+        if any(o.verdict == "fail" for o in opinions):
+            if confirmed(claim, plan._replace(samples=samples), spent):
+                break
+            opinions = [o._replace(verdict="inconclusive") if o.verdict == "fail" else o for o in opinions]
+        elif opinions and all(o.verdict == "pass" for o in opinions):
+            break
+    return _finding(claim, opinions, spent, level, known)
+
+
+def looks(most: int) -> list[int]:
+    """Sample sizes of the looks, the last one being all that is allowed."""
+    sizes = []
+    size = min(FIRST_LOOK, most)
+    while size < most:
+        sizes.append(size)
+        size *= GROWTH
+    return [*sizes, most]
+
+
+def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> list[Opinion]:
+    """Every estimator's opinion; the level is shared by those that are fit."""
+    fit = [m for m in measurements if not m.unfit]
+    each = level / max(1, len(fit))
+    best = min(fit, key=lambda m: m.estimate.half_width(each), default=None)
+    opinions = []
+    for m in measurements:
+        half = m.estimate.half_width(each)
+        verdict = "unfit" if m.unfit else _verdict(claim, m, best, half, each)
+        opinions.append(Opinion(m, half, verdict))
+    if claim.bound == "at most" and best is not None:
+        opinions = [o if o.measurement is best or o.verdict == "fail" else _aside(o) for o in opinions]
+    return opinions
+
+
+def _aside(opinion: Opinion) -> Opinion:
+    """A bound is decided by the most precise estimator; the others only speak up to refute."""
+    return opinion if opinion.verdict == "unfit" else opinion._replace(verdict="pass")
+
+
+def _verdict(
+    claim: MeanClaim, m: Measurement, best: Measurement | None, half: float, level: float
+) -> str:
+    value, expected = m.estimate.mean, claim.expected
+    if not math.isfinite(value):
+        return "fail"
+    if expected is None:
+        if best is None or m is best:
+            return "pass"
+        expected = Reference(best.estimate.mean, best.estimate.half_width(level), "", "")
+    slack = half + expected.error
+    over = value - expected.value
+    if claim.bound == "at most":
+        over = max(over, -math.inf)
+        return "pass" if over + slack <= claim.tolerance else _beyond(over, slack, claim.tolerance)
+    if abs(over) + slack <= claim.tolerance:
+        return "pass"
+    return _beyond(abs(over), slack, claim.tolerance)
+
+
+def _beyond(deviation: float, slack: float, tolerance: float) -> str:
+    return "fail" if deviation - slack > tolerance else "inconclusive"
+
+
+def confirmed(claim: MeanClaim, plan: Plan, level: float) -> bool:
+    """Whether a fresh stream of another point set with more replicates refutes the claim too."""
+    fresh = plan._replace(
+        points="independent" if plan.points != "independent" else "sobol",
+        replicates=CONFIRMING_REPLICATES,
+        samples=GROWTH * plan.samples,
+        seed=plan.seed + (1 << 32),
+    )
+    return any(o.verdict == "fail" for o in judged(claim, claim.measure(fresh), level))
+
+
+def _finding(
+    claim: MeanClaim, opinions: list[Opinion], spent: float, level: float, known: str | None
+) -> Finding:
+    telling = _telling(opinions)
+    verdict = overall(opinions)
+    if verdict == "fail" and known:
+        verdict = "known"
+    e = telling.measurement.estimate
+    expected = claim.expected
+    return Finding(
+        quantity=claim.quantity,
+        where=dict(claim.where),
+        verdict=verdict,
+        bound=claim.bound,
+        value=e.mean,
+        stderr=e.stderr,
+        expected=expected.value if expected else None,
+        tolerance=claim.tolerance,
+        resolves=resolves(claim, e, spent / max(1, len(opinions))),
+        level=level,
+        samples=e.samples,
+        estimator=telling.measurement.estimator,
+        reference={"kind": expected.kind, "source": expected.source, "error": expected.error}
+        if expected
+        else None,
+        estimators=[_row(o) for o in opinions],
+        note=known if verdict == "known" else _note(verdict, opinions),
+        hint=hint(claim, e.mean) if verdict in ("fail", "known") else None,
+        reproduce=claim.reproduce or None,
+    )
+
+
+def overall(opinions: list[Opinion]) -> str:
+    """Refuted by any, else held by those that resolve the tolerance, else inconclusive."""
+    verdicts = {o.verdict for o in opinions}
+    if "fail" in verdicts:
+        return "fail"
+    return "pass" if "pass" in verdicts else "inconclusive"
+
+
+def _telling(opinions: list[Opinion]) -> Opinion:
+    """The opinion that a finding shows: one that refutes, else the most precise fit one."""
+    order = {"fail": 0, "pass": 1, "inconclusive": 1, "unfit": 2}
+    return min(opinions, key=lambda o: (order[o.verdict], o.half_width))
+
+
+def resolves(claim: MeanClaim, e: Estimate, level: float) -> float:
+    """The deviation that a FAIL at this look would have caught with probability 95 %."""
+    if e.dof < 1:
+        return math.inf
+    tail = level if claim.bound == "at most" else level / 2.0
+    power = student.quantile(0.05, e.dof)
+    return claim.tolerance + (student.quantile(tail, e.dof) + power) * e.stderr
+
+
+def _row(opinion: Opinion) -> dict[str, object]:
+    m = opinion.measurement
+    row: dict[str, object] = {
+        "estimator": m.estimator,
+        "value": m.estimate.mean,
+        "stderr": m.estimate.stderr,
+        "samples": m.estimate.samples,
+        "verdict": opinion.verdict,
+    }
+    if m.unfit:
+        row["not_used"] = m.unfit
+    elif opinion.verdict == "inconclusive":
+        row["not_used"] = f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples"
+    return row
+
+
+def _note(verdict: str, opinions: list[Opinion]) -> str | None:
+    """What an inconclusive finding needs."""
+    if verdict != "inconclusive":
+        return None
+    reasons = [o.measurement.unfit for o in opinions if o.measurement.unfit]
+    fit = [o for o in opinions if not o.measurement.unfit]
+    if fit:
+        return f"undecided at {fit[0].measurement.estimate.samples} samples: allow more with --samples"
+    return reasons[0] if reasons else None
+
+
+Decide = Callable[[MeanClaim, Plan], Finding]
