@@ -41,13 +41,14 @@ def furnace(
     threads: int | None = None,
     tolerance: float | None = None,
     progress: Progress | None = None,
+    curve: bool = False,
 ) -> Report:
     """White furnace test of a model with one or several parameter sets.
 
     p: a parameter set, a list of them, or None for the model's defaults. theta_o_deg: angles in
     [0, 90) degrees. sampler: "all" or some of "uniform", "cosine", "own". samples: the most that a
     claim may take; it stops sooner where it is decided. tolerance: relative for A, absolute for
-    A <= 1. Raises UserError for a bad value, ModelError if the model does not run.
+    A <= 1. curve: add the reference at every degree, for pictures. Raises UserError for a bad value, ModelError if the model does not run.
     """
     sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
     angles = theta_o_deg if isinstance(theta_o_deg, (list, tuple)) else [theta_o_deg]
@@ -64,7 +65,9 @@ def furnace(
         share = _share(progress, i, len(sets))
         total = 2 * len(angles) * max(1, len(_first_tuple(one)))
         findings = _decided(claims, plan, variant, total, share)
-        results.append(Result(model.name, shown_parameters(variant, one), "furnace", findings))
+        curves = furnace_check.curves(variant, one, max(angles), phi_o_deg) if curve else []
+        shown = shown_parameters(variant, one)
+        results.append(Result(model.name, shown, "furnace", findings, curves))
     settings = {
         "theta_o_deg": list(angles),
         "phi_o_deg": phi_o_deg,

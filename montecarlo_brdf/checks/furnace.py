@@ -81,6 +81,16 @@ def reference(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) ->
     return Reference(*truth) if truth else None
 
 
+def curves(model: Model, p: Any, last: float, phi_deg: float) -> list[list[tuple[float, float]]]:
+    """The reference at every degree up to `last`, per channel; nothing where there is none."""
+    angles = [*(float(t) for t in range(90) if t < last), last]
+    found = []
+    for one in channels(p):
+        truths = [(t, reference(model, one, t, phi_deg)) for t in angles]
+        found.append([(t, truth.value) for t, truth in truths if truth])
+    return [curve for curve in found if curve]
+
+
 def _units(model: Model, one: Any) -> dict[str, float]:
     """What a hint may compare A with: the parameter that the model scales with."""
     names = [model.scales_with] if model.scales_with else list(one._fields)

@@ -45,6 +45,7 @@ class Result:
     params: dict[str, Any]
     check: str
     findings: list[Finding]
+    curves: list[list[tuple[float, float]]] = field(default_factory=list)  # per channel, for plots
 
     @property
     def verdict(self) -> str:
@@ -110,12 +111,14 @@ def versions() -> dict[str, str]:
 
 
 def _result(result: Result) -> dict[str, Any]:
+    curves = {"curves": result.curves} if result.curves else {}
     return {
         "model": result.model,
         "params": result.params,
         "check": result.check,
         "verdict": result.verdict,
         "findings": [{k: v for k, v in vars(f).items() if v not in (None, [])} for f in result.findings],
+        **curves,
     }
 
 

@@ -1,0 +1,93 @@
+"""brdf-check: one file per command; this one only gathers them and turns errors into exit codes.
+
+Exit codes: 0 all claims held, 1 a claim was refuted, 2 usage, 3 inconclusive, 4 the model could not
+be loaded, compiled or raised, 5 output could not be written, 70 internal error, 130 interrupted.
+"""
+from __future__ import annotations
+
+import importlib
+import os
+import pkgutil
+import sys
+from typing import NoReturn
+
+import click
+
+from montecarlo_brdf import __version__
+from montecarlo_brdf.errors import UserError
+
+INTERNAL_ERROR = 70
+INTERRUPTED = 130
+
+EPILOG = """\b
+Examples:
+  brdf-check furnace --model lambert
+  brdf-check furnace --model my_brdf.py -p albedo=0.5 --theta-o 0:85:6 --plot albedo.png
+  brdf-check show lambert
+\b
+Exit codes: 0 all claims held, 1 a claim was refuted, 2 usage, 3 inconclusive,
+4 the model could not be run, 5 output could not be written, 70 internal error, 130 interrupted.
+\b
+Shell completion: eval "$(_BRDF_CHECK_COMPLETE=bash_source brdf-check)"  (or zsh_source, fish_source)
+"""
+
+
+class Commands(click.Group):
+    """Every module of this folder that does not start with an underscore is a command."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Names of all commands."""
+        return sorted(m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_"))
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """The command `name`, imported when it is asked for."""
+        if name not in self.list_commands(ctx):
+            return None
+        module = importlib.import_module(f"{__name__}.{name}")
+        command: click.Command = module.command
+        return command
+
+
+@click.group(
+    cls=Commands, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]}
+)
+@click.version_option(__version__, "--version", prog_name="brdf-check")
+def commands() -> None:
+    """Monte Carlo verification of BRDFs: estimates with error bars, verdicts with stated error rates."""
+
+
+def main() -> NoReturn:
+    """The console script."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: list[str]) -> int:
+    """Exit code of a command line; every error becomes one sentence on stderr."""
+    try:
+        code = commands.main(
+            arguments, prog_name="brdf-check", standalone_mode=False, auto_envvar_prefix="BRDF_CHECK"
+        )
+        sys.stdout.flush()
+    except click.exceptions.Abort:
+        return _say("interrupted", INTERRUPTED)
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except UserError as error:
+        return _say(f"Error: {error}", error.exit_code)
+    except KeyboardInterrupt:
+        return _say("interrupted", INTERRUPTED)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except Exception as error:
+        if os.environ.get("BRDF_CHECK_DEBUG"):
+            raise
+        text = " ".join(f"{type(error).__name__}: {error}".split())
+        return _say(f"internal error: {text} (BRDF_CHECK_DEBUG=1 shows where)", INTERNAL_ERROR)
+    return code if isinstance(code, int) else 0
+
+
+def _say(sentence: str, code: int) -> int:
+    click.echo(sentence, err=True)
+    return code

@@ -1,0 +1,116 @@
+"""Options that commands share, and what happens to a finished report."""
+from __future__ import annotations
+
+import functools
+import secrets
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from montecarlo_brdf.cli._values import Whole
+from montecarlo_brdf.errors import UserError
+
+FORMATS = ("text", "json")
+
+
+def model_names(ctx: Any, param: Any, incomplete: str) -> list[str]:
+    """Completion of --model."""
+    from montecarlo_brdf.loading import names
+
+    return [n for n in names() if n.startswith(incomplete)]
+
+
+def model_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """--model and -p."""
+    command = click.option(
+        "-p",
+        "--param",
+        "assignments",
+        multiple=True,
+        metavar="NAME=VALUE",
+        help="A parameter or choice; lists and ranges make cases, a/b/c makes a colour. "
+        "[-p albedo=0.5  -p alpha=0.1,0.3  -p alpha=0.05:1:log5  -p f0=1/0.7/0.3]",
+    )(command)
+    return click.option(
+        "--model",
+        "spec",
+        required=True,
+        metavar="MODEL",
+        shell_complete=model_names,
+        help="A built-in model, my_brdf.py, or my_brdf.py:name. [--model lambert]",
+    )(command)
+
+
+def sampling_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """--points, --samples, --seed, --threads, --tolerance."""
+    options = [
+        click.option("--points", default="sobol", show_default=True, metavar="SET",
+                     help="Point set: sobol or independent. [--points independent]"),
+        click.option("--samples", type=Whole(), default="2^22", show_default=True,
+                     help="The most samples a claim may take; it stops sooner where it is decided. "
+                     "[--samples 2^20]"),
+        click.option("--seed", default="0", show_default=True, metavar="NUMBER",
+                     help="A number, or random (printed). [--seed 7]"),
+        click.option("--threads", type=Whole(), default=None,
+                     help="Threads; results do not depend on it. [--threads 1]  [default: all]"),
+        click.option("--tolerance", type=float, default=None,
+                     help="Allowed deviation: relative from a reference [default: 1e-4], absolute "
+                     "from a bound [default: 1e-5]. [--tolerance 1e-3]"),
+    ]  # fmt: skip
+    return functools.reduce(lambda done, option: option(done), reversed(options), command)
+
+
+def output_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """--format, --export-json, --inconclusive, --verbose."""
+    options = [
+        click.option("--format", "form", default="text", show_default=True, metavar="FORM",
+                     help=f"What stdout gets: {' or '.join(FORMATS)}. [--format json]"),
+        click.option("--export-json", type=click.Path(path_type=Path), metavar="FILE",
+                     help="Write the whole report. [--export-json report.json]"),
+        click.option("--inconclusive", type=click.Choice(["pass", "fail"]), default=None,
+                     help="Count inconclusive as pass (exit 0) or fail (exit 1) instead of exit 3."),
+        click.option("-v", "--verbose", is_flag=True, help="Show every estimator of every finding."),
+    ]  # fmt: skip
+    return functools.reduce(lambda done, option: option(done), reversed(options), command)
+
+
+def check_outputs(form: str, *paths: Path | None) -> None:
+    """Complain about outputs before hours of work, not after."""
+    from montecarlo_brdf.errors import unknown
+    from montecarlo_brdf.report.write import check_writable
+
+    if form not in FORMATS:
+        raise UserError(unknown("format", form, FORMATS))
+    for path in paths:
+        if path is not None:
+            check_writable(path)
+
+
+def seed_of(text: str) -> int:
+    """The seed, drawn and told if it is 'random'."""
+    if text == "random":
+        seed = secrets.randbits(32)
+        click.echo(f"seed {seed}", err=True)
+        return seed
+    if not text.isdigit() or int(text) >= 1 << 64:
+        raise UserError(f"seed must be a whole number from 0 to 2^64 - 1, or random, not {text!r}")
+    return int(text)
+
+
+def deliver(report: Any, form: str, export: Path | None, inconclusive: str | None, verbose: bool) -> int:
+    """Print and write a report; the exit code of the command."""
+    from montecarlo_brdf.report.write import write_text
+
+    if export is not None:
+        write_text(export, report.to_json())
+    if form == "json":
+        click.echo(report.to_json(), nl=False)
+    else:
+        from montecarlo_brdf.report.text import show
+
+        show(report, verbose)
+    if report.verdict == "inconclusive" and inconclusive:
+        return {"pass": 0, "fail": 1}[inconclusive]
+    return int(report.exit_code)

@@ -1,0 +1,81 @@
+"""brdf-check furnace"""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from montecarlo_brdf.cli import _options
+
+EPILOG = """\b
+Examples:
+  brdf-check furnace --model lambert
+  brdf-check furnace --model lambert_unnormalised -p c=0.5
+  brdf-check furnace --model my_brdf.py --theta-o 0:85:18 --plot albedo.png
+  brdf-check furnace --model lambert -p albedo=0.9/0.5/0.1 --format json
+"""
+
+
+@click.command("furnace", epilog=EPILOG, short_help="White furnace test: albedo against angle.")
+@_options.model_option
+@click.option(
+    "--theta-o",
+    "theta_o",
+    default="0,15,30,45,60,75,85",
+    show_default=True,
+    metavar="DEGREES",
+    help="Polar angles of the viewer in [0, 90): a list, or first:last:count. [--theta-o 0:85:18]",
+)
+@click.option("--phi-o", default="0", metavar="DEGREES", help="Azimuth of the viewer. [--phi-o 45]")
+@click.option(
+    "--sampler",
+    default="all",
+    show_default=True,
+    metavar="NAMES",
+    help="all, or some of uniform, cosine, own. [--sampler cosine,own]",
+)
+@_options.sampling_options
+@_options.output_options
+@click.option(
+    "--plot",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Albedo against angle with error bars and reference, as PNG, SVG or PDF. [--plot a.png]",
+)
+def command(**options: Any) -> int:
+    """How much of a constant light 1 does the surface reflect, and is that what theory says?
+
+    Two claims per angle: the albedo A equals its reference within the tolerance, and A <= 1. Each is
+    estimated by every sampler that can be trusted for the case.
+    """
+    from montecarlo_brdf import loading, verify
+    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._values import number, numbers, parameter_sets
+
+    _options.check_outputs(options["form"], options["export_json"], options["plot"])
+    model = loading.load(options["spec"])
+    sets = parameter_sets(model, options["assignments"])
+    names = options["sampler"].split(",")
+    with progress(f"furnace {model.name}") as update:
+        report = verify.furnace(
+            model,
+            sets,
+            numbers(options["theta_o"], "theta-o"),
+            phi_o_deg=number(options["phi_o"], "phi-o"),
+            sampler="all" if names == ["all"] else names,
+            points=options["points"],
+            samples=options["samples"],
+            seed=_options.seed_of(options["seed"]),
+            threads=options["threads"],
+            tolerance=options["tolerance"],
+            progress=update,
+            curve=bool(options["plot"] or options["export_json"]),
+        )
+    if options["plot"]:
+        from montecarlo_brdf.report.plots import plot
+
+        plot(report.to_dict(), options["plot"])
+    return _options.deliver(
+        report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
+    )

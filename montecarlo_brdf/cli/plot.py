@@ -1,0 +1,26 @@
+"""brdf-check plot"""
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from montecarlo_brdf.cli import _options
+
+
+@click.command(
+    "plot",
+    epilog="\b\nExample:\n  brdf-check plot report.json -o albedo.png",
+    short_help="Draw a report again without computing again.",
+)
+@click.argument("report", type=click.Path(path_type=Path))
+@click.option("-o", "--output", type=click.Path(path_type=Path), required=True, metavar="FILE",
+              help="PNG, SVG or PDF. [-o albedo.png]")  # fmt: skip
+def command(report: Path, output: Path) -> int:
+    """Draw the picture of an exported report."""
+    from montecarlo_brdf.report.plots import plot
+    from montecarlo_brdf.report.read import read_report
+
+    _options.check_outputs("text", output)
+    plot(read_report(report), output)
+    return 0

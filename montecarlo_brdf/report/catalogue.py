@@ -1,0 +1,76 @@
+"""What models there are, as tables and pages of text."""
+from __future__ import annotations
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from montecarlo_brdf import references
+from montecarlo_brdf.model import PROPERTIES, Model
+
+
+def show_all(models: list[Model]) -> None:
+    """A table of models."""
+    grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for name in ("model", "what it is", "parameters", "reference", "disclaims"):
+        grid.add_column(name, overflow="fold")
+    for model in models:
+        grid.add_row(
+            Text(model.name, style="bold"),
+            first_line(model),
+            ", ".join([*ranges(model), *options(model)]),
+            reference_kind(model),
+            ", ".join(model.disclaims) or "-",
+        )
+    Console(highlight=False).print(grid)
+
+
+def show_one(model: Model) -> None:
+    """Everything about one model."""
+    lines = [model.doc.strip(), "", "parameters: " + (", ".join(ranges(model)) or "none")]
+    for category, picks in model.choices.items():
+        lines.append(f"choice {category}: {', '.join(picks)} (now {model.picks[category]})")
+    lines.append(f"sampler: {'its own' if model.sample else 'none of its own'}")
+    lines.append(f"reference: {reference_kind(model)}")
+    claimed = [p for p in PROPERTIES if p not in model.disclaims]
+    lines.append("claims: " + ", ".join(claimed))
+    lines += [f"disclaims {name}: {reason}" for name, reason in model.disclaims.items()]
+    console = Console(highlight=False)
+    console.print(Text(model.name, style="bold"))
+    for line in lines:
+        console.print(Text(line), soft_wrap=True)
+
+
+def first_line(model: Model) -> str:
+    """The first line of a model's docstring."""
+    return model.doc.strip().partition("\n")[0] or "-"
+
+
+def ranges(model: Model) -> list[str]:
+    """'albedo=0.8 in [0, 1]' for every parameter."""
+    defaults = model.Params._field_defaults  # type: ignore[attr-defined]
+    found = []
+    for name in model.Params._fields:  # type: ignore[attr-defined]
+        text = f"{name}={defaults[name]:g}" if name in defaults else name
+        if name in model.domain:
+            low, high = model.domain[name]
+            text += f" in [{low:g}, {high:g}]"
+        found.append(text)
+    return found
+
+
+def options(model: Model) -> list[str]:
+    """'norm: n+2|n+8' for every choice."""
+    return [f"{category}: {'|'.join(picks)}" for category, picks in model.choices.items()]
+
+
+def reference_kind(model: Model) -> str:
+    """Where the expected albedo of a model is from."""
+    if model.albedo:
+        return "declared in its file"
+    if not (model.built_in and references.find(model.name)):
+        return "none"
+    truth = references.albedo(
+        model.name, 0.5, **model.parameters()._asdict(), **model.picks
+    )
+    return truth.kind if truth else "none"

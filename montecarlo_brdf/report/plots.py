@@ -1,0 +1,113 @@
+"""Pictures of reports: pure functions of the plain data, so they can be drawn again at any time."""
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any
+
+from montecarlo_brdf.errors import OutputError, UserError
+from montecarlo_brdf.report.write import write_bytes
+
+KINDS = ("png", "svg", "pdf")
+#: Okabe and Ito's colours: told apart by everyone. One per parameter set or channel.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+MOST_SERIES = len(COLOURS)
+
+
+def plot(report: dict[str, Any], path: Path) -> None:
+    """Draw a report into a PNG, SVG or PDF file."""
+    kind = path.suffix.lstrip(".").lower()
+    if kind not in KINDS:
+        raise OutputError(f"cannot draw {path}: the name must end in .png, .svg or .pdf")
+    if report.get("command") != "furnace":
+        raise UserError(f"there is no picture for a report of {report.get('command')!r}")
+    import matplotlib
+
+    matplotlib.use("Agg")
+    figure = albedo_figure(report)
+    content = io.BytesIO()
+    # a fixed hash salt and no date: equal reports give equal files
+    with matplotlib.rc_context({"svg.hashsalt": "montecarlo_brdf"}):
+        figure.savefig(content, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else {})
+    write_bytes(path, content.getvalue())
+
+
+def albedo_figure(report: dict[str, Any]) -> Any:
+    """Albedo against angle with its error band and reference; below it the error on a log scale."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    shown = series(report)[:MOST_SERIES]
+    for k, one in enumerate(shown):
+        _albedo(top, one, COLOURS[k], MARKERS[k])
+        _error(bottom, one, COLOURS[k], MARKERS[k])
+    top.axhline(1.0, color="0.4", linewidth=0.8, linestyle=(0, (1, 2)))
+    top.set_ylabel("directional albedo A")
+    top.set_ylim(bottom=0.0)
+    top.set_title(_title(report, len(shown)), fontsize=10)
+    top.legend(fontsize=8, loc="best")
+    bottom.set_yscale("log")
+    bottom.set_ylabel("|A - reference|")
+    bottom.set_xlabel("angle of the viewer theta_o (degrees)")
+    bottom.set_xlim(-2.0, 92.0)
+    bottom.legend(fontsize=8, loc="best")
+    for axes in (top, bottom):
+        axes.grid(alpha=0.25)
+    return figure
+
+
+def series(report: dict[str, Any]) -> list[dict[str, Any]]:
+    """One series per parameter set and channel: label, findings of A, reference curve."""
+    found = []
+    for result in report["results"]:
+        findings = [f for f in result["findings"] if f["quantity"] == "A"]
+        for channel in sorted({f["where"].get("channel", 0) for f in findings}):
+            rows = [f for f in findings if f["where"].get("channel", 0) == channel]
+            label = _label(result, channel if any("channel" in f["where"] for f in rows) else None)
+            curves = result.get("curves") or []
+            curve = curves[channel] if channel < len(curves) else None
+            found.append({"label": label, "findings": rows, "curve": curve})
+    return found
+
+
+def _label(result: dict[str, Any], channel: int | None) -> str:
+    values = {
+        k: v[channel] if isinstance(v, list) and channel is not None else v
+        for k, v in result["params"].items()
+    }
+    return ", ".join(f"{k}={v:.4g}" if isinstance(v, float) else f"{k}={v}" for k, v in values.items())
+
+
+def _title(report: dict[str, Any], shown: int) -> str:
+    models = ", ".join(dict.fromkeys(r["model"] for r in report["results"]))
+    total = len(series(report))
+    more = f" ({shown} of {total} parameter sets)" if total > shown else ""
+    return f"white furnace: {models}{more}, verdict {report['verdict']}"
+
+
+def _albedo(axes: Any, one: dict[str, Any], colour: str, marker: str) -> None:
+    rows = [f for f in one["findings"] if f.get("value") is not None]
+    theta = [f["where"]["theta_o_deg"] for f in rows]
+    errors = [3.0 * (f.get("stderr") or 0.0) for f in rows]
+    values = [f["value"] for f in rows]
+    low = [v - e for v, e in zip(values, errors)]
+    high = [v + e for v, e in zip(values, errors)]
+    axes.fill_between(theta, low, high, color=colour, alpha=0.2, linewidth=0)
+    axes.errorbar(theta, values, errors, fmt=marker, color=colour, markersize=4, capsize=2,
+                  label=f"{one['label'] or 'estimate'} (+- 3 stderr)")  # fmt: skip
+    curve = one["curve"] or [(f["where"]["theta_o_deg"], f["expected"]) for f in rows if "expected" in f]
+    if curve:
+        axes.plot(*zip(*curve), color=colour, linewidth=1.0, label="reference")
+
+
+def _error(axes: Any, one: dict[str, Any], colour: str, marker: str) -> None:
+    rows = [f for f in one["findings"] if "expected" in f and f.get("value") is not None]
+    theta = [f["where"]["theta_o_deg"] for f in rows]
+    floor = 1e-17  # an exact estimate has no place on a log axis
+    errors = [max(abs(f["value"] - f["expected"]), floor) for f in rows]
+    axes.plot(theta, errors, marker, color=colour, markersize=4, label="error")
+    axes.plot(theta, [max(f["stderr"], floor) for f in rows], color=colour, linewidth=1.0, label="stderr")
+    axes.plot(theta, [f["tolerance"] for f in rows], color=colour, linewidth=0.8,
+              linestyle=(0, (4, 3)), label="tolerance")  # fmt: skip

@@ -1,0 +1,126 @@
+"""A report as people read it on a terminal: a table, then what needs attention."""
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from montecarlo_brdf.report.findings import Finding, Report, Result, worst
+from montecarlo_brdf.statistics import with_error
+
+COLOURS = {
+    "pass": "green",
+    "fail": "bold red",
+    "error": "bold red",
+    "inconclusive": "yellow",
+    "known": "cyan",
+    "skipped": "dim",
+}
+PLAIN_WIDTH = 118
+SYMBOLS = {"theta_o_deg": "theta_o", "theta_i_deg": "theta_i", "phi_o_deg": "phi_o", "channel": "ch"}
+
+
+def show(report: Report, verbose: bool = False) -> None:
+    """Print a report on stdout."""
+    width = None if sys.stdout.isatty() else PLAIN_WIDTH
+    console = Console(width=width, highlight=False, soft_wrap=False)
+    for result in report.results:
+        console.print(Text(title(result), style="bold"))
+        console.print(table(result))
+        _print_attention(console, result, verbose)
+    console.print(summary(report), soft_wrap=True)
+
+
+def title(result: Result) -> str:
+    """'lambert(albedo=0.8)  furnace'."""
+    values = ", ".join(f"{k}={shown(v)}" for k, v in result.params.items())
+    name = f"{result.model}({values})  " if result.model else ""
+    return f"{name}{result.check}"
+
+
+def shown(value: Any) -> str:
+    """A parameter as it would be typed: 0.5, or 1/0.7/0.3 for a colour."""
+    if isinstance(value, (tuple, list)):
+        return "/".join(shown(v) for v in value)
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def table(result: Result) -> Table:
+    """One row per finding."""
+    places = list(dict.fromkeys(k for f in result.findings for k in f.where))
+    grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for place in places:
+        grid.add_column(SYMBOLS.get(place, place), justify="right", no_wrap=True)
+    for name in ("quantity", "estimate", "expected", "tolerance", "resolves", "by", "verdict"):
+        grid.add_column(name, justify="left", no_wrap=name in ("estimate", "verdict"))
+    for finding in result.findings:
+        grid.add_row(*[_place(k, finding.where.get(k)) for k in places], *_cells(finding))
+    return grid
+
+
+def _place(name: str, value: Any) -> str:
+    if value is None:
+        return ""
+    return f"{value:g}°" if name.endswith("_deg") else str(value)
+
+
+def _cells(f: Finding) -> list[Any]:
+    return [
+        f.quantity,
+        with_error(f.value, f.stderr),
+        "" if f.expected is None else ("<= " if f.bound == "at most" else "") + f"{f.expected:.8g}",
+        "" if f.tolerance is None else f"{f.tolerance:.1e}",
+        "" if f.resolves is None else f"{f.resolves:.1e}",
+        f.estimator or "",
+        Text(f.verdict.upper() if f.verdict != "pass" else "pass", style=COLOURS[f.verdict]),
+    ]
+
+
+def _print_attention(console: Console, result: Result, verbose: bool) -> None:
+    """Hints, reasons, reproduction commands; every distinct sentence once."""
+    lines: dict[str, None] = {}
+    for f in result.findings:
+        if verbose:
+            for row in f.estimators:
+                value = with_error(float(row["value"]), float(row["stderr"]))
+                lines[f"  {_where(f)} {f.quantity}: {row['estimator']} {value} {row['verdict']}"] = None
+        for kind, sentence in (("note", f.note), ("hint", f.hint), ("repro", f.reproduce)):
+            if sentence:
+                lines[f"  {kind:5} {sentence}"] = None
+    for name, reason, where in _not_used(result):
+        lines[f"  {name} sampling not used at {where}: {reason}"] = None
+    for line in lines:
+        console.print(Text(line), soft_wrap=True)
+
+
+def _not_used(result: Result) -> list[tuple[str, str, str]]:
+    """(estimator, first reason, all places) of estimators that were not believed."""
+    found: dict[str, tuple[str, dict[str, None]]] = {}
+    for f in result.findings:
+        for row in f.estimators:
+            if "not_used" in row and f.bound == "equal":
+                _, places = found.setdefault(row["estimator"], (row["not_used"], {}))
+                places[_where(f)] = None
+    return [(name, reason, ", ".join(places)) for name, (reason, places) in found.items()]
+
+
+def _where(f: Finding) -> str:
+    return " ".join(f"{SYMBOLS.get(k, k)} {_place(k, v)}" for k, v in f.where.items()) or "it"
+
+
+def summary(report: Report) -> Text:
+    """The verdict, how it came about, and how often it would be wrong."""
+    findings = [f for r in report.results for f in r.findings]
+    counts = [f"{sum(f.verdict == v for f in findings)} {v}" for v in COLOURS if any(f.verdict == v for f in findings)]
+    samples = max((f.samples or 0 for f in findings), default=0)
+    verdict = worst(f.verdict for f in findings) if findings else "skipped"
+    text = Text(f"{report.verdict.upper()}", style=COLOURS.get(verdict, ""))
+    text.append(
+        f"  {', '.join(counts)}; up to {samples} samples a claim, {report.settings.get('points')} points, "
+        f"seed {report.settings.get('seed')}; chance of a false alarm <= {report.level:.1g}",
+        style="not bold default",
+    )
+    return text
