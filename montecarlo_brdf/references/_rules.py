@@ -89,21 +89,24 @@ GROWTH = 1.3  # ratio of their sizes per dimension, more than a step of `node_co
 ROUNDING = 64.0 * EPSILON  # relative: some fifty operations per term, some of them common to all
 
 
-def converge(rule: Callable[[float], Sum], rounds: int = 10) -> tuple[float, float]:
-    """Refine rule(size) until two sizes agree; return the value and a bound on its error.
+def converge(rule: Callable[[float], Sum], rounds: int = 8) -> tuple[float, float]:
+    """Refine rule(size) until two sizes agree; return the finer value and a bound on its error.
 
-    The difference bounds the error of the coarser set. The rules here converge geometrically, so
-    the finer one, whose value is returned, is far better than that.
+    The difference bounds the error of the finer set where each refinement at least halves it, as
+    the geometric rules here do. Where the differences shrink more slowly, with a ratio r of one to
+    the one before, the rest of that series r/(1-r) is what is still to come.
     """
-    size, coarse, fine = 1.0, rule(1.0), Sum(0.0, 0.0)
+    size, coarse, before, trust = 1.0, rule(1.0), 0.0, 1.0
     for _ in range(rounds):
         size *= GROWTH
         fine = rule(size)
         difference = abs(fine.value - coarse.value)
         if difference <= ENOUGH * fine.magnitude:
             break
-        coarse = fine
-    return fine.value, difference + ROUNDING * fine.magnitude
+        ratio = min(difference / before, 0.95) if before else 0.5
+        trust = max(1.0, ratio / (1.0 - ratio))
+        coarse, before = fine, difference
+    return fine.value, trust * difference + ROUNDING * fine.magnitude
 
 
 def independent(result: tuple[float, float], source: str) -> Truth:
