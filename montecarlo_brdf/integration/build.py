@@ -5,7 +5,7 @@ import functools
 import threading
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from montecarlo_brdf import bits, jit
 from montecarlo_brdf.integration import cache, kernel, native, parameters
@@ -18,8 +18,20 @@ Function = Callable[..., Any]
 INLINE = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
+class Buildable(Protocol):
+    """A description from which a kernel can be made, with a hash of everything it depends on."""
+
+    def key(self) -> str:
+        """Hash of everything the machine code depends on."""
+        ...
+
+    def assemble(self) -> Function:
+        """The template with everything bound, ready to be compiled."""
+        ...
+
+
 class Recipe(NamedTuple):
-    """All that a kernel is made of."""
+    """All that a kernel of means is made of."""
 
     points: str
     integrands: tuple[Function, ...]
@@ -33,16 +45,36 @@ class Recipe(NamedTuple):
 
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
-        content = Fingerprint()
-        content.add(native.identity())
-        content.add(_compiler_source())
-        content.add(self.layout.key())
+        content = fingerprint(self.layout)
         content.add(getattr(point_sets, self.points))
         for integrand in self.integrands:
             content.add(integrand, self.functions)
         content.add(kernel.moments)
         content.add(len(self.integrands))
         return content.hexdigest()
+
+    def assemble(self) -> Function:
+        """The template `moments` with everything bound."""
+        special = specialiser()
+        integrands = [special.bind(i, self.functions) for i in self.integrands]
+        bound = {
+            "POINTS": getattr(point_sets, self.points),
+            "STORE": _store(special, integrands),
+            "PARAMETERS": parameters.unpacker(self.layout),
+            "BUFFER": _buffer(kernel.BLOCK * self.channels * len(integrands)),
+            "CHANNELS": self.channels,
+            "SLOTS": len(integrands),
+        }
+        return special.clone(kernel.moments, bound)
+
+
+def fingerprint(layout: parameters.Layout) -> Fingerprint:
+    """A hash begun with what every kernel depends on."""
+    content = Fingerprint()
+    content.add(native.identity())
+    content.add(_compiler_source())
+    content.add(layout.key())
+    return content
 
 
 @functools.cache
@@ -55,7 +87,7 @@ _loaded: dict[str, native.NativeKernel] = {}
 _lock = threading.Lock()
 
 
-def kernel_of(recipe: Recipe) -> native.NativeKernel:
+def kernel_of(recipe: Buildable) -> native.NativeKernel:
     """The compiled kernel of a recipe."""
     key = recipe.key()
     with _lock:
@@ -69,8 +101,8 @@ def _from_disk(key: str) -> native.NativeKernel | None:
     return native.load(image) if image else None
 
 
-def _from_source(recipe: Recipe, key: str) -> native.NativeKernel:
-    function = compile_recipe(recipe)
+def _from_source(recipe: Buildable, key: str) -> native.NativeKernel:
+    function = recipe.assemble()
     try:
         image = native.compile_function(function)
     except native.NeedsRuntime:
@@ -79,22 +111,8 @@ def _from_source(recipe: Recipe, key: str) -> native.NativeKernel:
     return native.load(image)
 
 
-def compile_recipe(recipe: Recipe) -> Function:
-    """The kernel template with everything bound, ready to be compiled."""
-    special = _specialiser()
-    bound = {
-        "POINTS": getattr(point_sets, recipe.points),
-        "STORE": _store(special, [special.bind(i, recipe.functions) for i in recipe.integrands]),
-        "PARAMETERS": parameters.unpacker(recipe.layout),
-        "BUFFER": _buffer(kernel.BLOCK * recipe.channels * len(recipe.integrands)),
-        "CHANNELS": recipe.channels,
-        "SLOTS": len(recipe.integrands),
-    }
-    return special.clone(kernel.moments, bound)
-
-
 @functools.cache
-def _specialiser() -> Specialiser:
+def specialiser() -> Specialiser:
     """One for the process, so that kernels share the functions they have in common."""
     import numba
 

@@ -186,7 +186,8 @@ def evaluate(
     rows = []
     for group in _groups(subject.sets, len(functions)):
         layout, numbers = parameters.pack(group, kernel.QUERY)
-        entry = compiled(subject, plan.points, tuple(functions), layout)
+        recipe = build.Recipe(plan.points, tuple(functions), subject.functions, layout)
+        entry = compiled(subject.identity[0], recipe)
         width = len(group) * len(functions)
         job = work.Job(entry, (*fixed, 0.0, *numbers), width, key, replicates, per_replicate)
         results = [estimate(m) for m in work.run(job, plan.threads, plan.progress)]
@@ -210,13 +211,12 @@ def _per_replicate(plan: Plan, replicates: int) -> int:
     return each
 
 
-def compiled(subject: Subject, points: str, functions: tuple[Any, ...], layout: Any) -> Any:
-    """The kernel for a subject; numba's complaints become one sentence."""
+def compiled(name: str, recipe: build.Buildable) -> Any:
+    """The kernel of a recipe for model `name`; numba's complaints become one sentence."""
     try:
-        return build.kernel_of(build.Recipe(points, functions, subject.functions, layout))
+        return build.kernel_of(recipe)
     except Exception as error:
         if type(error).__module__.startswith("numba"):
-            name = subject.identity[0]
             raise ModelError(f"model {name} does not compile: {_first_reason(error)}") from error
         raise
 
