@@ -18,7 +18,7 @@ LN2_LOW = 5.497923018708371e-14
 ROUNDER = 6755399441055744.0  # 1.5 * 2^52: adding it rounds to an integer in the low bits
 ROUNDER_WORD = 0x4338000000000000
 SQRT_HALF_WORD = 0x3FE6A09E667F3BCD
-SMALLEST, LARGEST = -708.0, 709.0  # where exp leaves the normal doubles
+LOWEST, HIGHEST = -1023.0, 1024.25  # exponents at which `scaled` gives 0 and infinity
 
 
 def sin_half_turn(t: float) -> float:
@@ -53,55 +53,67 @@ def turn(u: float) -> tuple[float, float]:
     return 1.0 - 2.0 * s * s, 2.0 * s * c
 
 
-def two_to(k: int) -> float:
-    """2^k for -1022 <= k <= 1023; the mask only matters for the exponent of a NaN."""
-    return double_of(((k + 1023) & 0x7FF) << 52)
+def clamped(t: float, low: float, high: float) -> float:
+    """t moved into [low, high]; NaN stays."""
+    t = low if t < low else t
+    return high if t > high else t
 
 
-def exp_parts(x: float) -> tuple[int, float]:
-    """(k, exp(r) - 1) of x = k ln 2 + r, |r| <= ln(2)/2, for x within the normal doubles."""
-    k = word_of(x * LOG2_E + ROUNDER) - ROUNDER_WORD
-    r = x - k * LN2_HIGH
+def nearest(t: float) -> int:
+    """The integer nearest to t, |t| < 2^51."""
+    return word_of(t + ROUNDER) - ROUNDER_WORD
+
+
+def expm1_small(r: float) -> float:
+    """e^r - 1 for |r| <= ln(2)/2."""
     p = 2.510038549551032e-08 * r + 2.7620088445409746e-07
     p = (p * r + 2.7557268459997064e-06) * r + 2.4801521295954376e-05
     p = (p * r + 0.00019841269863053618) * r + 0.0013888888917213717
     p = (p * r + 0.008333333333330062) * r + 0.04166666666662413
     p = (p * r + 0.16666666666666669) * r + 0.5000000000000001
-    e = r + r * r * p
+    return r + r * r * p
+
+
+def scaled(e: float, k: int) -> float:
+    """2^k (1 + e): 0 for k = -1023, infinity for 1024; the mask only matters for a NaN's k."""
+    return double_of(((k + 1023) & 0x7FF) << 52) * (1.0 + e)
+
+
+def exp2(t: float) -> float:
+    """2^t, relative error below 4e-16; 0 below t = -1022.5 and infinity from 1023.5."""
+    t = clamped(t, LOWEST, HIGHEST)
+    k = nearest(t)
+    return scaled(expm1_small((t - k) * LN2), k)
+
+
+def exp_parts(x: float) -> tuple[int, float]:
+    """(k, e) of e^x = 2^k (1 + e)."""
+    x = clamped(x, LOWEST * LN2, HIGHEST * LN2)
+    k = nearest(x * LOG2_E)
+    e = expm1_small(x - k * LN2_HIGH)
     return k, e - (1.0 + e) * (k * LN2_LOW)
 
 
-def within_exp(x: float) -> float:
-    """x clamped to where exp is a normal double; NaN stays."""
-    x = SMALLEST if x < SMALLEST else x
-    return LARGEST if x > LARGEST else x
-
-
 def exp(x: float) -> float:
-    """e^x, relative error below 4e-16; 0 below x = -708 and infinity above 709."""
-    k, e = exp_parts(within_exp(x))
-    scale = two_to(k)
-    y = scale + scale * e
-    y = 0.0 if x < SMALLEST else y
-    return math.inf if x > LARGEST else y
+    """e^x, relative error below 4e-16; 0 below x = -708.7 and infinity above 709.4."""
+    k, e = exp_parts(x)
+    return scaled(e, k)
 
 
 def expm1(x: float) -> float:
-    """e^x - 1 without cancellation, relative error below 6e-16; infinity above x = 709."""
-    k, e = exp_parts(within_exp(x))
-    scale = two_to(k)
-    y = e if k == 0 else scale * e + (scale - 1.0)
-    return math.inf if x > LARGEST else y
+    """e^x - 1 without cancellation, relative error below 6e-16."""
+    k, e = exp_parts(x)
+    return e if k == 0 else scaled(e, k) - 1.0
 
 
-def log_of_parts(k: int, s: float) -> float:
-    """k ln 2 + 2 atanh(s), |s| <= (sqrt(2)-1)/(sqrt(2)+1)."""
+def log2_of_parts(k: int, s: float) -> float:
+    """k + 2 atanh(s)/ln(2), |s| <= (sqrt(2)-1)/(sqrt(2)+1)."""
     z = s * s
-    p = 0.13086626147840102 * z + 0.13268773138656886
-    p = (p * z + 0.15386239702814658) * z + 0.18181795640132906
-    p = (p * z + 0.22222222391713917) * z + 0.28571428570803614
-    p = (p * z + 0.4000000000000088) * z + 0.6666666666666666
-    return k * LN2 + (2.0 * s + s * z * p)
+    p = 0.18880010645456755 * z + 0.19142793205820974
+    p = (p * z + 0.22197651717179587) * z + 0.2623078640447632
+    p = (p * z + 0.3205989004205735) * z + 0.41219858310211616
+    p = (p * z + 0.577078016355598) * z + 0.9617966939259756
+    return k + s * (2.8853900817779268 + z * p)
 
 
 def exponent(x: float) -> int:
@@ -115,15 +127,20 @@ def mantissa(x: float, k: int) -> float:
     return m if x < math.inf else x
 
 
-def log(x: float) -> float:
-    """ln x for normal x > 0, relative error below 5e-16."""
+def log2(x: float) -> float:
+    """Logarithm to base 2 of normal x > 0, relative error below 5e-16."""
     k = exponent(x)
     m = mantissa(x, k)
-    return log_of_parts(k, (m - 1.0) / (m + 1.0))
+    return log2_of_parts(k, (m - 1.0) / (m + 1.0))
 
 
-def log1p(y: float) -> float:
-    """ln(1 + y) for -1 < y < 1e300 without cancellation, relative error below 8e-16.
+def log(x: float) -> float:
+    """ln x for normal x > 0, relative error below 6e-16."""
+    return LN2 * log2(x)
+
+
+def log2_1p(y: float) -> float:
+    """Logarithm to base 2 of 1 + y for -1 < y < 1e300, relative error below 8e-16.
 
     Where 1 + y is near 1 its rounding is left out; elsewhere it changes the result by 3e-16.
     """
@@ -131,12 +148,17 @@ def log1p(y: float) -> float:
     k = exponent(x)
     m = mantissa(x, k)
     near = k == 0
-    return log_of_parts(k, (y if near else m - 1.0) / (y + 2.0 if near else m + 1.0))
+    return log2_of_parts(k, (y if near else m - 1.0) / (y + 2.0 if near else m + 1.0))
+
+
+def log1p(y: float) -> float:
+    """ln(1 + y) without cancellation, as `log2_1p`."""
+    return LN2 * log2_1p(y)
 
 
 def power(x: float, n: float) -> float:
-    """x^n for x > 0 and 0 for x = 0; error (3 + |n ln x|) half-roundings, the condition of x^n."""
-    y = exp(n * log(x))
+    """x^n for x > 0 and 0 for x = 0; error 4e-16 and |n ln x| roundings, the condition of x^n."""
+    y = exp2(n * log2(x))
     return y if x > 0.0 else 0.0 * x
 
 
@@ -145,7 +167,7 @@ def cosine_power(d: float, n: float) -> float:
 
     Lobes of large n live at d ~ 1/n, where 1 - d has lost the digits that n multiplies.
     """
-    y = exp(n * log1p(-d))
+    y = exp2(n * log2_1p(-d))
     return 0.0 if d >= 1.0 else y
 
 

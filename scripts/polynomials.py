@@ -22,7 +22,7 @@ def exp_rest(r: mp.mpf) -> mp.mpf:
 
 
 def log_rest(z: mp.mpf) -> mp.mpf:
-    return mp.nsum(lambda j: 2 * z**j / (2 * j + 3), [0, 60])
+    return mp.nsum(lambda j: 2 * z**j / (2 * j + 3), [0, 60]) / mp.log(2)
 
 
 def asin_rest(z: mp.mpf) -> mp.mpf:
@@ -48,6 +48,6 @@ if __name__ == "__main__":
     show("sin(pi x)/x in x*x, |x| <= 1/2", odd_sin, 0, 0.25, 9)
     show("cos(pi x) in x*x, |x| <= 1/2", even_cos, 0, 0.25, 9)
     show("(exp(r) - 1 - r)/r^2, |r| <= ln(2)/2", exp_rest, -half_ln2, half_ln2, 10)
-    show("(2 atanh(s) - 2 s)/s^3 in s*s, |s| <= tan(pi/8)^2", log_rest, 0, largest, 8)
+    show("2 (atanh(s) - s)/(s^3 ln 2) in s*s, |s| <= tan(pi/8)^2", log_rest, 0, largest, 8)
     show("(asin(t) - t)/t^3 in t*t, |t| <= sqrt(1/2)", asin_rest, 0, 0.5, 20)
     show("exp(a^2) erfc(a) in s = (a - 2)/(a + 2), 0 <= a <= 7", erfcx, -1, mp.mpf(5) / 9, 20)

@@ -1,0 +1,53 @@
+"""Disney (Burley) diffuse: Schlick-like darkening or brightening towards grazing by roughness.
+
+f = albedo/pi (1 + X (1 - mu_i)^5) (1 + X (1 - mu_o)^5)  [1/sr],
+X = 2 roughness (h.v)^2 - 1/2
+
+Sampling: cosine-weighted.
+albedo: base colour, 0 to 1.  roughness: 0 to 1.
+Source: Burley 2012, "Physically-based shading at Disney", section 5.3.
+Violates: energy conservation: 785/504 = 1.557540 at grazing (roughness 1), at the normal for
+roughness > 2/5, under uniform light for roughness > 0.427.
+"""
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from montecarlo_brdf.models._microfacet import half_sums
+from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.vectors import Vec
+
+
+class Params(NamedTuple):
+    albedo: float = 0.8
+    roughness: float = 0.5
+
+
+domain = {"albedo": (0.0, 1.0), "roughness": (0.0, 1.0)}
+verified = [Params(), Params(roughness=0.0), Params(roughness=1.0)]
+disclaims = {"energy": "albedo 1 reflects up to 785/504 = 1.557540 at grazing (roughness 1)"}
+scales_with = "albedo"
+
+
+def fifth(mu: float) -> float:
+    """(1 - mu)^5."""
+    c = 1.0 - mu
+    c2 = c * c
+    return c2 * c2 * c
+
+
+def f(wo: Vec, wi: Vec, p: Params) -> float:
+    """With (h.v)^2 = |wi + wo|^2/4."""
+    x = 0.5 * p.roughness * half_sums(wo, wi)[2] - 0.5
+    return p.albedo / math.pi * (1.0 + x * fifth(wi[2])) * (1.0 + x * fifth(wo[2]))
+
+
+def sample(wo: Vec, u: Vec, p: Params) -> Vec:
+    """Cosine-weighted."""
+    return random_hemisphere_cosine(u[0], u[1])
+
+
+def pdf(wo: Vec, wi: Vec, p: Params) -> float:
+    """cos(theta_i)/pi."""
+    return wi[2] / math.pi

@@ -1,0 +1,63 @@
+"""EON: Fujii's Oren-Nayar with the light it loses given back by multiple scattering.
+
+f = f_ss + f_ms  [1/sr],  f_ss = FON,
+f_ms = albedo_ms/pi (1 - E(mu_i)) (1 - E(mu_o))/(1 - E_avg),
+albedo_ms = albedo^2 E_avg/(1 - albedo (1 - E_avg)),  E = albedo of FON with albedo 1
+
+Sampling: cosine-weighted.
+albedo: of the facets, 0 to 1; albedo 1 reflects everything.  roughness: 0 (Lambert) to 1.
+Source: Portsmouth, Kutz & Hill 2025, "EON: a practical energy-preserving rough diffuse BRDF",
+JCGT 14(1), with the exact directional albedo instead of its fit.
+"""
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from montecarlo_brdf.models._rough_diffuse import fon_scale, missing, tangential_ratio
+from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.vectors import Vec
+
+AVERAGE_MISSING = 6.0 / (5.0 * math.pi) - 1.0 / 6.0
+
+
+class Params(NamedTuple):
+    albedo: float = 0.8
+    roughness: float = 0.5
+
+
+domain = {"albedo": (0.0, 1.0), "roughness": (0.0, 1.0)}
+verified = [Params(), Params(albedo=1.0, roughness=1.0), Params(roughness=0.0)]
+lossless = [Params(albedo=1.0, roughness=r) for r in (0.0, 0.5, 1.0)]
+kinks = ("mu_i=mu_o", "cos_phi=0")
+
+
+class Prepared(NamedTuple):
+    single: float
+    roughness: float
+    multiple: float
+
+
+def prepare(p: Params) -> Prepared:
+    """1 - E = A r/pi missing(theta): the factor r cancels, so that r = 0 is no 0/0."""
+    a = fon_scale(p.roughness)
+    lost = a * p.roughness * AVERAGE_MISSING
+    albedo_ms = p.albedo * p.albedo * (1.0 - lost) / (1.0 - p.albedo * lost)
+    multiple = albedo_ms / math.pi * a * p.roughness / (math.pi * math.pi * AVERAGE_MISSING)
+    return Prepared(p.albedo / math.pi * a, p.roughness, multiple)
+
+
+def f(wo: Vec, wi: Vec, p: Prepared) -> float:
+    """f_ss + f_ms."""
+    single = p.single * (1.0 + p.roughness * tangential_ratio(wo, wi))
+    return single + p.multiple * missing(wi) * missing(wo)
+
+
+def sample(wo: Vec, u: Vec, p: Prepared) -> Vec:
+    """Cosine-weighted."""
+    return random_hemisphere_cosine(u[0], u[1])
+
+
+def pdf(wo: Vec, wi: Vec, p: Prepared) -> float:
+    """cos(theta_i)/pi."""
+    return wi[2] / math.pi

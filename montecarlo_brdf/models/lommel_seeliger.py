@@ -1,0 +1,41 @@
+"""Lommel-Seeliger: single scattering in a dark half-space, the Moon to first order.
+
+f = albedo/(2 pi (mu_i + mu_o))  [1/sr]
+
+The same as albedo times GGX with alpha = 1, f0 = 1 and height-correlated masking.
+
+Sampling: uniform over the hemisphere, which bounds the weight by albedo.
+albedo: 0 to 1; the reflected fraction is albedo (1 - mu_o ln(1 + 1/mu_o)).
+Source: Seeliger 1887; Fairbairn 2005, "Planetary photometry: the Lommel-Seeliger law".
+"""
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from montecarlo_brdf.sampling.warps import UNIFORM_HEMISPHERE_PDF, random_hemisphere
+from montecarlo_brdf.vectors import Vec
+
+
+class Params(NamedTuple):
+    albedo: float = 0.8
+
+
+domain = {"albedo": (0.0, 1.0)}
+verified = [Params(), Params(albedo=1.0)]
+scales_with = "albedo"
+
+
+def f(wo: Vec, wi: Vec, p: Params) -> float:
+    """albedo/(2 pi (mu_i + mu_o))."""
+    return 0.5 / math.pi * p.albedo / (wi[2] + wo[2])
+
+
+def sample(wo: Vec, u: Vec, p: Params) -> Vec:
+    """Uniform over the hemisphere."""
+    return random_hemisphere(u[0], u[1])
+
+
+def pdf(wo: Vec, wi: Vec, p: Params) -> float:
+    """1/(2 pi)."""
+    return UNIFORM_HEMISPHERE_PDF

@@ -1,0 +1,47 @@
+"""Phong's lobe used as a BRDF as it stands, without normalisation.
+
+f = ks max(0, r.v)^n  [1/sr]
+
+Sampling: cosine power around the mirror direction; below the horizon is rejected.
+ks: value at the mirror direction, 0 to 1.  n: exponent, 0 to 1e7.
+Source: common use of Phong 1975, "Illumination for computer generated pictures".
+Violates: energy conservation for n < 2 pi - 2 = 4.2832 (ks = 1): the albedo at the normal is
+2 pi ks/(n+2). Large exponents lose nearly all light instead.
+"""
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from montecarlo_brdf.models._mirror_lobe import (
+    mirror_power,
+    mirror_power_pdf,
+    sample_mirror_power,
+    width,
+)
+from montecarlo_brdf.vectors import Vec
+
+
+class Params(NamedTuple):
+    ks: float = 1.0
+    n: float = 32.0
+
+
+domain = {"ks": (0.0, 1.0), "n": (0.0, 1e7)}
+verified = [Params(), Params(n=10.0), Params(n=1e4)]
+scales_with = "ks"
+lobe = ("mirror", lambda p: width(p.n))
+
+
+def f(wo: Vec, wi: Vec, p: Params) -> float:
+    """ks (r.v)^n."""
+    return p.ks * mirror_power(wo, wi, p.n)
+
+
+def sample(wo: Vec, u: Vec, p: Params) -> Vec:
+    """Cosine power around the mirror direction."""
+    return sample_mirror_power(wo, u, p.n)
+
+
+def pdf(wo: Vec, wi: Vec, p: Params) -> float:
+    """(n+1)/(2 pi) (r.v)^n."""
+    return mirror_power_pdf(wo, wi, p.n)
