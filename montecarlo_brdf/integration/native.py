@@ -42,6 +42,7 @@ def target() -> tuple[str, str, str]:
     return binding.get_process_triple(), binding.get_host_cpu_name(), features.flatten()
 
 
+@functools.cache
 def identity() -> tuple[Any, ...]:
     """Everything outside the source that machine code depends on."""
     from importlib.metadata import version

@@ -4,7 +4,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from montecarlo_brdf.references._rules import Sum, clustered, converge, node_count
+from montecarlo_brdf.references._rules import (
+    Sum,
+    clustered,
+    converge,
+    leaning,
+    node_count,
+    panels,
+    total,
+)
 
 Directional = Callable[[float], tuple[float, float]]
 
@@ -14,23 +22,21 @@ def hemispherical_mean(
 ) -> tuple[float, float]:
     """2 int A(mu) mu dmu and its error bound.
 
-    A changes on the scale `width` next to the horizon, hence mu = width sinh v; it has kinks in mu
-    at the breaks.
+    A changes on the scale `width` next to the horizon, hence mu = 3 width sinh v; the first panel's
+    nodes lean towards mu = 0, where A may have a logarithm. A has kinks in mu at the breaks.
     """
     inside = [b for b in breaks if 0.0 < b < 1.0]
-    edges = np.arcsinh(np.array([0.0, *inside, 1.0]) / width)
+    scale = 3.0 * width
+    edges = np.arcsinh(np.array([0.0, *inside, 1.0]) / scale)
 
     def rule(size: float) -> Sum:
-        value = bound = 0.0
-        for a, b in zip(edges[:-1], edges[1:], strict=True):
-            nodes = clustered(node_count(size * (8.0 + 2.0 * (b - a))))
-            for v, weight in zip(a + (b - a) * nodes.x, (b - a) * nodes.weight, strict=True):
-                mu = min(width * float(np.sinh(v)), 1.0)
-                mean, error = albedo(mu)
-                weight *= 2.0 * mu * width * np.cosh(v)
-                value, bound = value + weight * mean, bound + weight * error
-        bounds.append(bound)
-        return Sum(value, abs(value))
+        nodes = (clustered if inside else leaning)(node_count(size * (20.0 + edges[-1])))
+        v, weight = panels(nodes, edges)
+        mu = np.minimum(scale * np.sinh(v), 1.0)
+        parts = np.array([albedo(float(m)) for m in mu])
+        weighted = parts * (2.0 * scale * weight * mu * np.cosh(v))[:, None]
+        bounds.append(float(np.abs(weighted[:, 1]).sum()))
+        return total(weighted[:, 0])
 
     bounds: list[float] = []
     value, error = converge(rule)

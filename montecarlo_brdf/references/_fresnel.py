@@ -1,5 +1,7 @@
 """Fresnel reflectance as a function of x = h.v, in forms without cancellation."""
 
+from typing import Any
+
 import numpy as np
 
 from montecarlo_brdf.references._rules import Array
@@ -20,6 +22,11 @@ def fresnel(x: Array, eta: float, k: float = 0.0) -> Array:
     """
     m2 = eta * eta if k == 0.0 and eta >= 1.0 else complex(eta, k) ** 2
     g = np.sqrt((m2 - 1.0) + x * x)
-    senkrecht = (1.0 - m2) / (x + g) ** 2
-    parallel = (m2 - 1.0) * (x * x * (m2 + 1.0) - 1.0) / (m2 * x + g) ** 2
-    return 0.5 * (np.abs(senkrecht) ** 2 + np.abs(parallel) ** 2)
+    senkrecht = 1.0 / _norm(x + g) ** 2
+    parallel = _norm(x * x * (m2 + 1.0) - 1.0) / _norm(m2 * x + g) ** 2
+    return 0.5 * abs(m2 - 1.0) ** 2 * (senkrecht + parallel)
+
+
+def _norm(z: Any) -> Array:
+    """|z|^2 without the square root of abs."""
+    return z.real**2 + z.imag**2 if np.iscomplexobj(z) else z * z

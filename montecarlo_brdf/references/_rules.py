@@ -64,6 +64,13 @@ def clustered(n: int) -> Nodes:
 
 
 @cache
+def leaning(n: int) -> Nodes:
+    """Gauss-Legendre after x = u^2 (2 - u), for a singularity at 0 and none at 1."""
+    u, v, weight = gauss(n)
+    return Nodes(u * u * (1.0 + v), v * (1.0 + u * v), u * (1.0 + 3.0 * v) * weight)
+
+
+@cache
 def tanh_sinh(n: int) -> Nodes:
     """Double-exponential rule: any integrable singularity at the ends; n nodes."""
     span = 3.3  # the nodes beyond it are closer than 1e-18 to an end
