@@ -1,15 +1,16 @@
 """Models by name (a file in montecarlo_brdf/models) or by path (a user's own file)."""
 from __future__ import annotations
 
+import contextlib
 import importlib
-import importlib.util
 import sys
 import traceback
 import types
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from montecarlo_brdf import mixture
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.model import Model, build, members
 
@@ -22,17 +23,26 @@ def names() -> list[str]:
 
 
 def load(spec: str, **picks: str) -> Model:
-    """The model `spec`: a built-in name, `my_brdf.py`, or `my_brdf.py:name`.
+    """The model `spec`: a built-in name, `my_brdf.py`, `my_brdf.py:name`, or a weighted sum of them,
+    "0.6 lambert + 0.4 ggx".
 
     picks: one option per choice the model offers, e.g. norm="n+8".
     Raises UserError for an unknown name or a missing file, ModelError if the file does not load.
     """
     spec = str(spec)
+    mixed = None if Path(spec).exists() else mixture.parts(spec)
+    if mixed:
+        model = mixture.mixture([(weight, load(name)) for weight, name in mixed], spec)
+        return model.variant(**picks) if picks else model
     path, _, member = spec.partition(".py:")
     if member:
         namespace = _member(spec, vars(_from_file(Path(path + ".py"))), member)
     elif spec.endswith(".py"):
         namespace = vars(_from_file(Path(spec)))
+        if not callable(namespace.get("f")):
+            offered = ", ".join(f"{spec}:{name}" for name in members(namespace))
+            choose = f" (choose from {offered})" if offered else ""
+            raise ModelError(f"{spec} defines no function f(wo, wi, p){choose}")
     elif spec in names():
         namespace = vars(importlib.import_module(f"montecarlo_brdf.models.{spec}"))
     else:
@@ -51,14 +61,25 @@ def _from_file(path: Path) -> types.ModuleType:
     module = types.ModuleType(path.stem)
     module.__file__ = str(path)
     try:
-        exec(compile(path.read_bytes(), str(path), "exec"), vars(module))  # noqa: S102
+        with _no_bytecode():
+            exec(compile(path.read_bytes(), str(path), "exec"), vars(module))  # noqa: S102
     except SyntaxError as error:
-        raise ModelError(f"{path}, line {error.lineno}: {error.msg}") from error
+        raise ModelError(f"{path}, line {error.lineno or 1}: {error.msg}") from error
     except (Exception, SystemExit) as error:
         raise ModelError(f"{path} {raised(error, path)} while it was loaded") from error
-    if not callable(getattr(module, "f", None)) and not list(members(vars(module))):
-        raise ModelError(f"{path} defines no function f(wo, wi, p)")
     return module
+
+
+@contextlib.contextmanager
+def _no_bytecode() -> Iterator[None]:
+    """Modules of the user's are read from their source: Python's own cache of them looks at
+    seconds and sizes, and misses an edit from 2.0 to 3.0 within the same second."""
+    before = sys.dont_write_bytecode
+    sys.dont_write_bytecode = True
+    try:
+        yield
+    finally:
+        sys.dont_write_bytecode = before
 
 
 def _member(spec: str, namespace: Mapping[str, Any], name: str) -> Mapping[str, Any]:
@@ -68,7 +89,8 @@ def _member(spec: str, namespace: Mapping[str, Any], name: str) -> Mapping[str, 
         inside = {k: getattr(value, k) for k in dir(value) if not k.startswith("__")}
         return {**namespace, **{k: None for k in ("sample", "pdf")}, **inside}
     if not callable(value):
-        raise UserError(unknown(f"model in {spec.rpartition(':')[0]}", name, members(namespace)))
+        file = spec.rpartition(":")[0]
+        raise UserError(f"{file} has " + unknown("model", name, members(namespace)))
     own = {k: namespace.get(f"{name}_{k}") for k in ("sample", "pdf")}
     params = namespace.get(f"{name}_Params") or namespace.get("Params")
     return {**namespace, "f": value, **own, **({"Params": params} if params else {})}

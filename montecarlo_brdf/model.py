@@ -50,7 +50,10 @@ class Model:
     kinks: tuple[str, ...] = ()
     built_in: bool = False
     picks: Mapping[str, str] = field(default_factory=dict)
+    labels: Mapping[str, str] = field(default_factory=dict)  # field -> name, where they differ
+    terms: tuple[Any, ...] = ()  # of a mixture
     namespace: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    rebuild: Function | None = field(default=None, repr=False)  # picks -> the variant
 
     def variant(self, **picks: str) -> Model:
         """The same model with other choices; the rest keep their current pick."""
@@ -59,6 +62,8 @@ class Model:
                 raise UserError(unknown(f"choice of model {self.name}", category, self.choices))
             if pick not in self.choices[category]:
                 raise UserError(unknown(category, pick, self.choices[category]))
+        if self.rebuild:
+            return self.rebuild({**self.picks, **picks})  # type: ignore[no-any-return]
         return build(self.name, self.namespace, {**self.picks, **picks}, self.built_in)
 
     def parameters(self, **values: Any) -> Any:
@@ -71,10 +76,12 @@ class Model:
         picks = {k: values.pop(k) for k in list(values) if k in self.choices}
         model = self.variant(**picks) if picks else self
         names = model.Params._fields  # type: ignore[attr-defined]
+        fields = {model.labels.get(n, n): n for n in names}
         for name in values:
-            if name not in names:
-                raise UserError(unknown(f"parameter of model {self.name}", name, (*names, *self.choices)))
-        checked = {n: model._checked(n, v) for n, v in values.items()}
+            if name not in fields:
+                allowed = (*fields, *self.choices)
+                raise UserError(unknown(f"parameter of model {self.name}", name, allowed))
+        checked = {fields[n]: model._checked(fields[n], v) for n, v in values.items()}
         defaults = getattr(model.Params, "_field_defaults", {})
         missing = [n for n in names if n not in checked and n not in defaults]
         if missing:
@@ -101,7 +108,8 @@ class Model:
         except (TypeError, ValueError):
             number = math.nan
         if isinstance(value, bool) or not (math.isfinite(number) and low <= number <= high):
-            raise UserError(f"{name} of model {self.name} must be {allowed}, not {value}")
+            name = self.labels.get(name, name)
+            raise UserError(f"{name} of model {self.name} must be {allowed}, not {value!r}")
         return number
 
 
@@ -120,11 +128,13 @@ def build(name: str, namespace: Mapping[str, Any], picks: Mapping[str, str], bui
     picks = {c: picks.get(c, next(iter(options))) for c, options in choices.items()}
     options = [_option(c, choices[c][pick]) for c, pick in picks.items()]
     bound = _rebound(namespace, {k: v for o in options for k, v in o["functions"].items()})
+    _check_params(name, bound.get("Params", NoParams))
     params = _params_of(bound, options, picks)
     domain = dict(bound.get("domain", {}))
     for option in options:
         domain.update(option["domain"])
     _check_arguments(name, bound)
+    _check_domain(name, domain)
     optional = ("sample", "pdf", "prepare", "albedo", "same_as", "scales_with", "lobe")
     given = {k: bound.get(k) for k in optional}
     return Model(
@@ -183,6 +193,28 @@ def _params_of(
     return made
 
 
+def _check_params(name: str, params: Any) -> None:
+    """Params is a NamedTuple of numbers."""
+    fields = getattr(params, "_fields", None)
+    defaults = getattr(params, "_field_defaults", {})
+    numbers = all(isinstance(v, (int, float)) for v in defaults.values())
+    if not isinstance(params, type) or fields is None or not numbers:
+        raise ModelError(f"Params of model {name} must be a NamedTuple of numbers")
+
+
+def _check_domain(name: str, domain: Mapping[str, Any]) -> None:
+    """domain maps a name to (low, high)."""
+    for field_name, bounds in domain.items():
+        try:
+            low, high = map(float, bounds)
+        except (TypeError, ValueError):
+            low, high = math.nan, math.nan
+        if not low <= high:
+            raise ModelError(
+                f"domain of model {name} must give {field_name} as (low, high), not {bounds!r}"
+            )
+
+
 def _check_arguments(name: str, bound: Mapping[str, Any]) -> None:
     """Every function of the contract takes the arguments that the contract says."""
     contract = {"f": "(wo, wi, p)", "sample": "(wo, u, p)", "pdf": "(wo, wi, p)", "prepare": "(p)"}
@@ -197,8 +229,16 @@ def _check_arguments(name: str, bound: Mapping[str, Any]) -> None:
 
 
 def members(namespace: Mapping[str, Any]) -> Iterator[str]:
-    """Names in a file that could be a model: functions and classes it defines itself."""
+    """Names in a file that could be a model: its own functions (wo, wi, p) and classes with f."""
     for key, value in namespace.items():
         own = getattr(value, "__module__", None) == namespace.get("__name__")
-        if own and not key.startswith("_") and isinstance(value, (types.FunctionType, type)):
+        if own and not key.startswith("_") and _could_be_model(key, value):
             yield key
+
+
+def _could_be_model(key: str, value: Any) -> bool:
+    if isinstance(value, type):
+        return hasattr(value, "f")
+    part_of_another = key.endswith(("_sample", "_pdf")) or key in ("sample", "pdf")
+    three = isinstance(value, types.FunctionType) and value.__code__.co_argcount == 3
+    return three and not part_of_another

@@ -9,12 +9,12 @@ import importlib
 import os
 import pkgutil
 import sys
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import click
 
 from montecarlo_brdf import __version__
-from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.errors import OutputError, UserError, unknown
 
 INTERNAL_ERROR = 70
 INTERRUPTED = 130
@@ -42,22 +42,22 @@ class Commands(click.Group):
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """The command `name`, imported when it is asked for."""
         if name not in self.list_commands(ctx):
-            return None
+            raise UserError(unknown("command", name, self.list_commands(ctx)))
         module = importlib.import_module(f"{__name__}.{name}")
         command: click.Command = module.command
         return command
 
 
-@click.group(
-    cls=Commands, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]}
-)
+@click.group(cls=Commands, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, "--version", prog_name="brdf-check")
 def commands() -> None:
-    """Monte Carlo verification of BRDFs: estimates with error bars, verdicts with stated error rates."""
+    """Monte Carlo verification of BRDFs: estimates with error bars, verdicts with stated error
+    rates."""
 
 
 def main() -> NoReturn:
     """The console script."""
+    sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115  closed by `>&-`
     sys.exit(run(sys.argv[1:]))
 
 
@@ -65,27 +65,44 @@ def run(arguments: list[str]) -> int:
     """Exit code of a command line; every error becomes one sentence on stderr."""
     try:
         code = commands.main(
-            arguments, prog_name="brdf-check", standalone_mode=False, auto_envvar_prefix="BRDF_CHECK"
+            arguments,
+            prog_name="brdf-check",
+            standalone_mode=False,
+            auto_envvar_prefix="BRDF_CHECK",
         )
         sys.stdout.flush()
-    except click.exceptions.Abort:
+    except (click.exceptions.Abort, KeyboardInterrupt):
         return _say("interrupted", INTERRUPTED)
-    except click.ClickException as error:
+    except click.exceptions.NoArgsIsHelpError as error:
         error.show()
         return error.exit_code
+    except click.ClickException as error:
+        return _say(f"Error: {_sentence(error)}", error.exit_code)
     except UserError as error:
         return _say(f"Error: {error}", error.exit_code)
-    except KeyboardInterrupt:
-        return _say("interrupted", INTERRUPTED)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+    except OSError as error:  # files are written by report.write, so this is stdout
+        _discard(sys.stdout)
+        if isinstance(error, BrokenPipeError):  # `| head`: nobody reads an error message either
+            return OutputError.exit_code
+        return _say(f"Error: cannot write to stdout: {error.strerror}", OutputError.exit_code)
     except Exception as error:
         if os.environ.get("BRDF_CHECK_DEBUG"):
             raise
         text = " ".join(f"{type(error).__name__}: {error}".split())
         return _say(f"internal error: {text} (BRDF_CHECK_DEBUG=1 shows where)", INTERNAL_ERROR)
     return code if isinstance(code, int) else 0
+
+
+def _sentence(error: click.ClickException) -> str:
+    """click's message, and for a wrong use where to read what is allowed."""
+    context = getattr(error, "ctx", None)
+    see = f" (see {context.command_path} --help)" if context else ""
+    return " ".join(error.format_message().split()).removesuffix(".") + see
+
+
+def _discard(stream: Any) -> None:
+    """Send what is left in a stream's buffer nowhere, or the interpreter complains at its exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _say(sentence: str, code: int) -> int:

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from montecarlo_brdf.cli._values import Whole
+from montecarlo_brdf.cli._values import Number, Whole, whole
 from montecarlo_brdf.errors import UserError
 
 FORMATS = ("text", "json")
@@ -55,7 +55,7 @@ def sampling_options(command: Callable[..., Any]) -> Callable[..., Any]:
                      help="A number, or random (printed). [--seed 7]"),
         click.option("--threads", type=Whole(), default=None,
                      help="Threads; results do not depend on it. [--threads 1]  [default: all]"),
-        click.option("--tolerance", type=float, default=None,
+        click.option("--tolerance", type=Number("in [0, 1)"), default=None,
                      help="Allowed deviation: relative from a reference [default: 1e-4], absolute "
                      "from a bound [default: 1e-5]. [--tolerance 1e-3]"),
     ]  # fmt: skip
@@ -94,9 +94,10 @@ def seed_of(text: str) -> int:
         seed = secrets.randbits(32)
         click.echo(f"seed {seed}", err=True)
         return seed
-    if not text.isdigit() or int(text) >= 1 << 64:
+    seed = whole(text)
+    if seed is None or seed >= 1 << 64:
         raise UserError(f"seed must be a whole number from 0 to 2^64 - 1, or random, not {text!r}")
-    return int(text)
+    return seed
 
 
 def deliver(report: Any, form: str, export: Path | None, inconclusive: str | None, verbose: bool) -> int:

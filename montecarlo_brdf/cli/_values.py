@@ -12,6 +12,7 @@ from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.model import Model
 
 MOST_VALUES = 10_000
+MOST_DIGITS = 400  # of a number: more than any double has
 
 
 def number(text: str, what: str) -> float:
@@ -23,6 +24,11 @@ def number(text: str, what: str) -> float:
     if not math.isfinite(value):
         raise UserError(f"{what} must be a finite number, not {text!r}")
     return value
+
+
+def whole(text: str) -> int | None:
+    """The whole number that plain decimal digits stand for, or None."""
+    return int(text) if text.isascii() and text.isdigit() and len(text) <= MOST_DIGITS else None
 
 
 def numbers(text: str, what: str) -> list[float]:
@@ -37,10 +43,13 @@ def _range(text: str, what: str) -> list[float]:
     first, _, rest = text.partition(":")
     last, _, count_text = rest.partition(":")
     logarithmic = count_text.startswith("log")
-    count = count_text.removeprefix("log")
-    if not count.isdigit() or not 2 <= int(count) <= MOST_VALUES:
-        raise UserError(f"{what} range {text!r} must be first:last:count or first:last:logcount")
-    a, b, n = number(first, what), number(last, what), int(count)
+    n = whole(count_text.removeprefix("log"))
+    if n is None or not 2 <= n <= MOST_VALUES:
+        raise UserError(
+            f"{what} range {text!r} must be first:last:count or first:last:logcount "
+            f"with a count from 2 to {MOST_VALUES}"
+        )
+    a, b = number(first, what), number(last, what)
     if logarithmic and not (a > 0.0 and b > 0.0):
         raise UserError(f"{what} range {text!r} needs positive ends to be logarithmic")
     steps = [k / (n - 1) for k in range(n)]
@@ -58,15 +67,41 @@ class Whole(click.ParamType):
         """The number; its range is checked where it is used."""
         if isinstance(value, int):
             return value
-        text = str(value).replace("_", "")
-        base, _, power = text.partition("^")
+        number = _whole_of(str(value).replace("_", ""))
+        if number is None:
+            self.fail(f"{value!r} is not a whole number (write 65536, 2^16 or 1e6)", param, ctx)
+        return number
+
+
+def _whole_of(text: str) -> int | None:
+    base, _, power = text.partition("^")
+    if power:
+        b, p = whole(base), whole(power)
+        return b**p if b is not None and p is not None and b < 1 << 64 and p <= 64 else None
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    exact = whole(text.removeprefix("-"))
+    if exact is not None:
+        return -exact if text.startswith("-") else exact
+    return int(value) if value.is_integer() else None
+
+
+class Number(click.ParamType):
+    """A finite number; its range, here only told, is checked where it is used."""
+
+    name = "number"
+
+    def __init__(self, allowed: str) -> None:
+        self.allowed = allowed
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> float:
+        """The number."""
         try:
-            result = int(base) ** int(power) if power else float(text) if "e" in text.lower() else int(text)
-            if result == int(result):
-                return int(result)
-        except (ValueError, OverflowError):
-            pass
-        self.fail(f"{value!r} is not a whole number (write 65536, 2^16 or 1e6)", param, ctx)
+            return number(str(value), "")
+        except UserError:
+            self.fail(f"{value!r} is not a number {self.allowed}", param, ctx)
 
 
 def parameter_sets(model: Model, assignments: Sequence[str]) -> list[Any]:
@@ -76,6 +111,9 @@ def parameter_sets(model: Model, assignments: Sequence[str]) -> list[Any]:
     if count > MOST_VALUES:
         raise UserError(f"{count} parameter sets are more than the {MOST_VALUES} allowed")
     names = [name for name, _ in axes]
+    for name in names:
+        if names.count(name) > 1:
+            raise UserError(f"-p {name} is given twice: write -p {name}=a,b for both values")
     rows: Iterable[tuple[Any, ...]] = itertools.product(*(values for _, values in axes))
     return [model.parameters(**dict(zip(names, row, strict=True))) for row in rows]
 
@@ -87,6 +125,11 @@ def _axis(model: Model, assignment: str) -> tuple[str, list[Any]]:
         raise UserError(f"-p takes name=value, not {assignment!r}")
     if name in model.choices:
         return name, text.split(",")
-    if "/" in text:
-        return name, [tuple(number(v, name) for v in one.split("/")) for one in text.split(",")]
-    return name, numbers(text, name)
+    return name, [value for part in text.split(",") for value in _parameter(name, part.strip())]
+
+
+def _parameter(name: str, text: str) -> list[Any]:
+    """Values as the model will check them: it knows what is allowed and says so."""
+    if ":" in text:
+        return list(_range(text, name))
+    return [tuple(text.split("/")) if "/" in text else text]

@@ -22,11 +22,11 @@ def check_writable(path: Path) -> None:
 
 def write_bytes(path: Path, content: bytes) -> None:
     """Write beside the final name and move there: a reader never sees half a file."""
-    if path.exists() and not path.is_file():  # /dev/stdout, a pipe
-        path.write_bytes(content)
-        return
     temporary = ""
     try:
+        if path.exists() and not path.is_file():  # /dev/stdout, a pipe
+            path.write_bytes(content)
+            return
         handle, temporary = tempfile.mkstemp(dir=path.resolve().parent, prefix=f".{path.name}.")
         with os.fdopen(handle, "wb") as file:
             file.write(content)
