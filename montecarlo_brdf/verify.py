@@ -149,7 +149,7 @@ def _check_tolerance(tolerance: float | None) -> None:
 
 def shown_parameters(model: Model, p: Any) -> dict[str, Any]:
     """Parameters and choices by name, as reports print them."""
-    return {**p._asdict(), **model.picks}
+    return {**{model.labels.get(k, k): v for k, v in p._asdict().items()}, **model.picks}
 
 
 def _first_tuple(p: Any) -> tuple[float, ...]:

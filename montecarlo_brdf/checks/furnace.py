@@ -74,11 +74,31 @@ def reference(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) ->
     if model.albedo:
         value = float(model.albedo(mu, one))
         return Reference(value, 0.0, "declared", f"albedo() of {model.name}")
+    if model.terms:
+        return _sum([(_weight(one, t), reference(t.model, t.parameters_of(one), theta_deg, phi_deg)) for t in model.terms])
     if not model.built_in:
         return None
     turned = {} if model.isotropic else {"phi_o": phi_deg * 0.017453292519943295}
     truth = references.albedo(model.name, mu, **one._asdict(), **model.picks, **turned)
     return Reference(*truth) if truth else None
+
+
+def _weight(p: Any, term: Any) -> float:
+    return float(getattr(p, f"{term.prefix}_weight"))
+
+
+def _sum(parts: list[tuple[float, Reference | None]]) -> Reference | None:
+    """The reference of a mixture: albedo is linear in f."""
+    known = [(w, r) for w, r in parts if r is not None]
+    if len(known) < len(parts):
+        return None
+    kinds = {r.kind for _, r in known}
+    return Reference(
+        sum(w * r.value for w, r in known),
+        sum(w * r.error for w, r in known) + 1e-15,
+        "closed form" if kinds == {"closed form"} else "independent",
+        " + ".join(dict.fromkeys(r.source for _, r in known)),
+    )
 
 
 def curves(model: Model, p: Any, last: float, phi_deg: float) -> list[list[tuple[float, float]]]:

@@ -5,49 +5,56 @@ the compiler then sees the same value once and computes what depends on it once.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 
 class Layout(NamedTuple):
-    """Where each field of each channel stands; equal layouts share a kernel."""
+    """Where each number of each channel stands; equal layouts share a kernel."""
 
-    kind: type
-    widths: tuple[int, ...]  # per field: 0 for a number, n for a tuple of n numbers
+    shape: Any
     places: tuple[tuple[int, ...], ...]  # per channel: the place of every number
 
     def key(self) -> tuple[Any, ...]:
         """What the compiled code depends on: names and places, never values."""
-        return self.kind.__name__, getattr(self.kind, "_fields", ()), self.widths, self.places
+        return _described(self.shape), self.places
 
 
-def flatten(p: Any) -> tuple[tuple[int, ...], list[float]]:
-    """(widths, numbers) of a NamedTuple whose fields are numbers or tuples of numbers."""
-    widths, numbers = [], []
-    for value in p:
-        if isinstance(value, (int, float)):
-            widths.append(0)
-            numbers.append(float(value))
-        else:
-            row = [float(v) for v in value]
-            widths.append(len(row))
-            numbers.extend(row)
-    return tuple(widths), numbers
+def shape_of(value: Any) -> Any:
+    """None for a number, (type, shapes of the fields) for a NamedTuple or tuple."""
+    if isinstance(value, tuple):
+        return type(value), tuple(shape_of(v) for v in value)
+    float(value)
+    return None
+
+
+def numbers_of(value: Any) -> Iterator[float]:
+    """All numbers of a nested tuple in order."""
+    if isinstance(value, tuple):
+        for field in value:
+            yield from numbers_of(field)
+    else:
+        yield float(value)
+
+
+def _described(shape: Any) -> Any:
+    if shape is None:
+        return None
+    kind, fields = shape
+    return kind.__name__, getattr(kind, "_fields", ()), tuple(map(_described, fields))
 
 
 def pack(channels: Sequence[Any], first: int) -> tuple[Layout, list[float]]:
     """Layout and numbers of K parameter sets, the numbers starting at place `first`."""
-    rows = [flatten(p) for p in channels]
-    widths = rows[0][0]
     numbers: list[float] = []
-    places: list[list[int]] = [[] for _ in rows]
-    for column in zip(*(row[1] for row in rows)):
+    places: list[list[int]] = [[] for _ in channels]
+    for column in zip(*(numbers_of(p) for p in channels), strict=True):
         shared = len(set(column)) == 1
         for k, value in enumerate(column):
             if k == 0 or not shared:
                 numbers.append(value)
             places[k].append(first + len(numbers) - 1)
-    return Layout(type(channels[0]), widths, tuple(map(tuple, places))), numbers
+    return Layout(shape_of(channels[0]), tuple(map(tuple, places))), numbers
 
 
 def unpacker(layout: Layout) -> Any:
@@ -55,16 +62,7 @@ def unpacker(layout: Layout) -> Any:
     import numba
     from numba.extending import intrinsic
 
-    def field_type(width: int) -> Any:
-        return numba.types.UniTuple(numba.float64, width) if width else numba.float64
-
-    fields = [field_type(w) for w in layout.widths]
-    uniform = bool(fields) and all(t == fields[0] for t in fields)
-    one = (
-        numba.types.NamedUniTuple(fields[0], len(fields), layout.kind)
-        if uniform
-        else numba.types.NamedTuple(fields, layout.kind)
-    )
+    one = _numba_type(layout.shape)
 
     @intrinsic
     def unpack(typing: Any, reals: Any) -> Any:
@@ -75,17 +73,30 @@ def unpacker(layout: Layout) -> Any:
                 index = context.get_constant(numba.types.intp, place)
                 return builder.load(builder.gep(args[0], [index]))
 
-            def fields_of(places: tuple[int, ...]) -> Any:
-                rest = iter(places)
-                for kind, width in zip(fields, layout.widths):
-                    if width:
-                        yield context.make_tuple(builder, kind, [number(next(rest)) for _ in range(width)])
-                    else:
-                        yield number(next(rest))
+            def made(shape: Any, places: Iterator[int]) -> Any:
+                if shape is None:
+                    return number(next(places))
+                fields = [made(s, places) for s in shape[1]]
+                return context.make_tuple(builder, _numba_type(shape), fields)
 
-            tuples = [context.make_tuple(builder, one, list(fields_of(c))) for c in layout.places]
+            tuples = [made(layout.shape, iter(places)) for places in layout.places]
             return context.make_tuple(builder, result, tuples)
 
         return result(reals), generate
 
     return unpack
+
+
+def _numba_type(shape: Any) -> Any:
+    """The numba type of a shape; a tuple of equal types is a uniform one, as numba would type it."""
+    import numba
+
+    if shape is None:
+        return numba.float64
+    kind, fields = shape[0], [_numba_type(s) for s in shape[1]]
+    uniform = bool(fields) and all(t == fields[0] for t in fields)
+    if kind is tuple:
+        return numba.types.UniTuple(fields[0], len(fields)) if uniform else numba.types.Tuple(fields)
+    if uniform:
+        return numba.types.NamedUniTuple(fields[0], len(fields), kind)
+    return numba.types.NamedTuple(fields, kind)

@@ -1,0 +1,217 @@
+"""Mixtures: f = sum of weight_k f_k, any number of models, by name: "0.6 lambert + 0.4 ggx".
+
+Sampling picks one term by u[2], in proportion to the weights, with the full mixture pdf. Parameters
+are named after their model, "ggx.alpha"; weights are parameters too, "ggx.weight". That the weights
+add up to at most 1 is a claim about the surface, not a condition for evaluating it.
+"""
+from __future__ import annotations
+
+import math
+import re
+import types
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine, random_hemisphere_cosine
+
+Function = Callable[..., Any]
+
+FIRST: Any = None  # bound to the functions of one term
+REST: Any = None  # and to the mixture of the terms after it
+
+
+class Term(NamedTuple):
+    """One model of a mixture; its parameters are the mixture's fields that start with `prefix`."""
+
+    prefix: str
+    model: Model
+    weight: float
+
+    def parameters_of(self, p: Any) -> Any:
+        """The term's own parameter set within the mixture's."""
+        return self.model.Params(*(getattr(p, f) for f in self.fields()))
+
+    def fields(self) -> list[str]:
+        """The mixture's fields that are this term's parameters, in its own order."""
+        return [f"{self.prefix}_{n}" for n in self.model.Params._fields]  # type: ignore[attr-defined]
+
+
+class Last(NamedTuple):
+    """Prepared parameters of the last term."""
+
+    weight: float
+    first: Any
+
+
+class Node(NamedTuple):
+    """Prepared parameters of a term and of those after it; `choose` is the chance to sample it."""
+
+    weight: float
+    choose: float
+    first: Any
+    rest: Any
+
+
+def f(wo: Any, wi: Any, p: Any) -> float:
+    """weight f_1 + the rest."""
+    return p.weight * FIRST(wo, wi, p.first) + REST(wo, wi, p.rest)
+
+
+def f_last(wo: Any, wi: Any, p: Any) -> float:
+    """weight f_n."""
+    return p.weight * FIRST(wo, wi, p.first)
+
+
+def sample(wo: Any, u: Any, p: Any) -> Any:
+    """This term with probability `choose`, else one after it; u[2] is stretched to be used again."""
+    if u[2] < p.choose:
+        w = FIRST(wo, (u[0], u[1], u[2] / p.choose), p.first)
+        return w[0], w[1], w[2]
+    return REST(wo, (u[0], u[1], (u[2] - p.choose) / (1.0 - p.choose)), p.rest)
+
+
+def sample_last(wo: Any, u: Any, p: Any) -> Any:
+    """The last term."""
+    w = FIRST(wo, u, p.first)
+    return w[0], w[1], w[2]
+
+
+def pdf(wo: Any, wi: Any, p: Any) -> float:
+    """The density of the whole mixture."""
+    return p.choose * FIRST(wo, wi, p.first) + (1.0 - p.choose) * REST(wo, wi, p.rest)
+
+
+def pdf_last(wo: Any, wi: Any, p: Any) -> float:
+    """The density of the last term."""
+    return FIRST(wo, wi, p.first)
+
+
+def cosine_sample(wo: Any, u: Any, p: Any) -> Any:
+    """For a term without a sampler."""
+    return random_hemisphere_cosine(u[0], u[1])
+
+
+def cosine_pdf(wo: Any, wi: Any, p: Any) -> float:
+    """For a term without a sampler."""
+    return pdf_hemisphere_cosine(wi)
+
+
+def parts(spec: str) -> list[tuple[float, str]] | None:
+    """[(weight, model), ...] of "0.6 lambert + 0.4 ggx"; None if `spec` is not a mixture."""
+    pieces = [piece.strip() for piece in spec.split(" + ")]
+    found = [re.fullmatch(r"(?:(\S+)\s+)?(\S+)", piece) for piece in pieces]
+    if len(pieces) == 1 and not (found[0] and found[0].group(1)):
+        return None
+    if not all(found):
+        raise UserError(f'a mixture is written "0.6 lambert + 0.4 ggx", not {spec!r}')
+    return [(_weight(m.group(1), spec), m.group(2)) for m in found if m]
+
+
+def _weight(text: str | None, spec: str) -> float:
+    try:
+        value = 1.0 if text is None else float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value >= 0.0):
+        raise UserError(f"the weights of a mixture are numbers of at least 0, not {text!r} in {spec!r}")
+    return value
+
+
+def mixture(terms: Sequence[tuple[float, Model]], name: str) -> Model:
+    """The weighted sum of models as a model."""
+    return _assembled(_named(terms), name)
+
+
+def _named(terms: Sequence[tuple[float, Model]]) -> tuple[Term, ...]:
+    """Terms with distinct prefixes: a model that comes twice is ggx and ggx_2."""
+    seen: dict[str, int] = {}
+    named = []
+    for weight, model in terms:
+        stem = re.sub(r"\W", "_", model.name.rpartition("/")[2].removesuffix(".py"))
+        seen[stem] = seen.get(stem, 0) + 1
+        prefix = stem if seen[stem] == 1 else f"{stem}_{seen[stem]}"
+        named.append(Term(prefix, model, weight))
+    return tuple(named)
+
+
+def _assembled(terms: tuple[Term, ...], name: str) -> Model:
+    choices = {f"{t.prefix}.{c}": options for t in terms for c, options in t.model.choices.items()}
+    picks = {f"{t.prefix}.{c}": pick for t in terms for c, pick in t.model.picks.items()}
+    samplers = [(t.model.sample, t.model.pdf) if t.model.pdf else (None, None) for t in terms]
+    return Model(
+        name=name,
+        doc=f"{name}: a mixture, f = " + " + ".join(f"{t.prefix}.weight f_{t.prefix}" for t in terms),
+        f=_chain([t.model.f for t in terms], f, f_last),
+        Params=_params(terms, picks),
+        sample=_chain([s or cosine_sample for s, _ in samplers], sample, sample_last),
+        pdf=_chain([d or cosine_pdf for _, d in samplers], pdf, pdf_last),
+        prepare=lambda p: _prepared(terms, p),
+        domain=_domain(terms),
+        choices=choices,
+        disclaims={k: f"{t.prefix}: {v}" for t in terms for k, v in t.model.disclaims.items()},
+        isotropic=all(t.model.isotropic for t in terms),
+        picks=picks,
+        labels=_labels(terms),
+        terms=terms,
+        rebuild=lambda new: _assembled(_varied(terms, new), name),
+    )
+
+
+def _varied(terms: tuple[Term, ...], picks: Mapping[str, str]) -> tuple[Term, ...]:
+    """The terms with other choices."""
+
+    def own(t: Term) -> dict[str, str]:
+        return {c: picks[f"{t.prefix}.{c}"] for c in t.model.choices}
+
+    return tuple(t._replace(model=t.model.variant(**own(t))) for t in terms)
+
+
+def _chain(functions: list[Any], link: Any, last: Any) -> Any:
+    """The functions of all terms in one: each link binds one and the chain after it."""
+    chained = _bound(last, FIRST=functions[-1])
+    for function in reversed(functions[:-1]):
+        chained = _bound(link, FIRST=function, REST=chained)
+    return chained
+
+
+def _bound(template: Any, **names: Any) -> Any:
+    return types.FunctionType(template.__code__, {**globals(), **names}, template.__name__)
+
+
+def _labels(terms: tuple[Term, ...]) -> dict[str, str]:
+    labels = {f"{t.prefix}_weight": f"{t.prefix}.weight" for t in terms}
+    for t in terms:
+        labels |= {f: f"{t.prefix}.{f.removeprefix(t.prefix + '_')}" for f in t.fields()}
+    return labels
+
+
+def _params(terms: tuple[Term, ...], picks: Mapping[str, str]) -> type:
+    defaults = {f"{t.prefix}_weight": t.weight for t in terms}
+    for t in terms:
+        defaults |= dict(zip(t.fields(), t.model.parameters(), strict=True))
+    made = NamedTuple("Params", [(name, float) for name in defaults])  # type: ignore[misc]
+    made.__new__.__defaults__ = tuple(defaults.values())
+    made._field_defaults = defaults
+    made.picks = dict(picks)  # type: ignore[attr-defined]
+    return made
+
+
+def _domain(terms: tuple[Term, ...]) -> dict[str, tuple[float, float]]:
+    domain = {f"{t.prefix}_weight": (0.0, 1e6) for t in terms}
+    for t in terms:
+        domain |= {f"{t.prefix}_{n}": ends for n, ends in t.model.domain.items()}
+    return domain
+
+
+def _prepared(terms: tuple[Term, ...], p: Any) -> Any:
+    """The chain of prepared parameters, built from its end."""
+    weights = [getattr(p, f"{t.prefix}_weight") for t in terms]
+    ready = [t.model.prepared(t.parameters_of(p)) for t in terms]
+    chain: Any = Last(weights[-1], ready[-1])
+    total = weights[-1]
+    for weight, first in zip(reversed(weights[:-1]), reversed(ready[:-1]), strict=True):
+        total += weight
+        chain = Node(weight, weight / total if total > 0.0 else 0.0, first, chain)
+    return chain
