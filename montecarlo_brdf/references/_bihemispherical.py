@@ -23,14 +23,15 @@ def hemispherical_mean(
     """2 int A(mu) mu dmu and its error bound.
 
     A changes on the scale `width` next to the horizon, hence mu = 3 width sinh v; the first panel's
-    nodes lean towards mu = 0, where A may have a logarithm. A has kinks in mu at the breaks.
+    nodes lean towards mu = 0, where A may have a logarithm. A has kinks in mu at the breaks;
+    a break at 1 says that it is not smooth at the normal.
     """
     inside = [b for b in breaks if 0.0 < b < 1.0]
     scale = 3.0 * width
     edges = np.arcsinh(np.array([0.0, *inside, 1.0]) / scale)
 
     def rule(size: float) -> Sum:
-        nodes = (clustered if inside else leaning)(node_count(size * (20.0 + edges[-1])))
+        nodes = (clustered if breaks else leaning)(node_count(size * (20.0 + edges[-1])))
         v, weight = panels(nodes, edges)
         mu = np.minimum(scale * np.sinh(v), 1.0)
         parts = np.array([albedo(float(m)) for m in mu])

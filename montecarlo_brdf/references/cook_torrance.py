@@ -88,6 +88,8 @@ def bihemispherical(**parameters: Any) -> Truth:
         parameters.get("distribution", "ggx"), parameters.get("alpha"), parameters.get("n")
     )
     breaks = {"v_cavity": (math.sqrt(0.5),), "walter": (microfacet.walter_cosine(d.alpha),)}
-    panels = breaks.get(parameters.get("masking", "smith"), ())
+    # with the masking of light at the normal not smooth, A is not smooth there either
+    normal = (1.0,) if d.alpha > ROUGH else ()
+    panels = breaks.get(parameters.get("masking", "smith"), normal)
     mean = hemispherical_mean(lambda mu: integrate(mu, **parameters), d.alpha, panels)
     return independent(mean, SOURCE)
