@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import functools
 import math
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -214,11 +215,13 @@ def _per_replicate(plan: Plan, replicates: int) -> int:
 def compiled(name: str, recipe: build.Buildable) -> Any:
     """The kernel of a recipe for model `name`; numba's complaints become one sentence."""
     try:
-        return build.kernel_of(recipe)
-    except Exception as error:
-        if type(error).__module__.startswith("numba"):
-            raise ModelError(f"model {name} does not compile: {_first_reason(error)}") from error
+        with warnings.catch_warnings():  # what matters of them shows in the error or in the verdict
+            warnings.simplefilter("ignore")
+            return build.kernel_of(recipe)
+    except (MemoryError, UserError):
         raise
+    except Exception as error:  # what numba cannot compile ends in errors of every kind
+        raise ModelError(f"model {name} does not compile: {_first_reason(error)}") from error
 
 
 def _first_reason(error: Exception) -> str:

@@ -8,6 +8,7 @@ reached, so a cached kernel can never be stale.
 """
 from __future__ import annotations
 
+import enum
 import hashlib
 import os
 import types
@@ -16,6 +17,11 @@ from typing import Any
 
 Function = Callable[..., Any]
 STANDARD = ("math", "cmath", "builtins", "numpy", "numba")
+#: Values whose repr is all there is to know about them.
+PLAIN = (int, float, complex, str, bytes, type(None), type(...), slice, range)
+PLAIN_MODULES = ("numpy", "numba.core.types")
+_PROCESS = os.urandom(16)
+_unknown: dict[int, Any] = {}
 
 
 def plain(value: Any) -> Any:
@@ -58,6 +64,7 @@ class Fingerprint:
     def __init__(self) -> None:
         self._hash = hashlib.blake2b(digest_size=16)
         self._seen: dict[int, int] = {}
+        self._modules: set[tuple[int, int]] = set()  # (module, code that uses it)
 
     def hexdigest(self) -> str:
         return self._hash.hexdigest()
@@ -78,20 +85,40 @@ class Fingerprint:
         elif hasattr(value, "tobytes") and hasattr(value, "dtype"):
             self._text(f"array {value.dtype} {value.shape}")
             self._hash.update(value.tobytes())
-        elif isinstance(value, (types.ModuleType, type)):
-            self._text(f"{type(value).__name__} {value.__name__}")
+        elif isinstance(value, types.ModuleType):
+            self._text(f"module {value.__name__}")
+        elif isinstance(value, type):
+            self._add_class(value)
         elif isinstance(value, types.BuiltinFunctionType):
             self._text(f"builtin {value.__module__}.{value.__qualname__}")
-        elif " at 0x" in repr(value):
-            self._hash.update(os.urandom(16))  # no known content: never the same kernel again
-        else:
+        elif isinstance(value, PLAIN) or type(value).__module__.startswith(PLAIN_MODULES):
             self._text(f"{type(value).__name__} {value!r}")
+        else:
+            self._add_unknown(value)
 
     def _text(self, text: str) -> None:
         self._hash.update(f"{len(text)}:{text};".encode())
 
+    def _add_unknown(self, value: Any) -> None:
+        """No content that could be hashed: the same kernel in this process, never in another."""
+        _unknown[id(value)] = value  # kept alive, so that the id stays its own
+        self._hash.update(_PROCESS)
+        self._text(f"object {id(value)}")
+
+    def _add_class(self, kind: type) -> None:
+        """Names, fields and values of named tuples and enumerations, which kernels may use."""
+        self._text(f"class {kind.__module__}.{kind.__qualname__}")
+        if isinstance(kind, enum.EnumMeta):
+            self.add([(n, m.value) for n, m in kind.__members__.items()])
+        elif hasattr(kind, "_fields"):
+            self.add((kind._fields, getattr(kind, "_field_defaults", {})))
+        elif kind.__module__ != "builtins" and not kind.__module__.startswith(PLAIN_MODULES):
+            self._add_unknown(kind)
+
     def _add_sequence(self, values: Any) -> None:
         self._text(f"{type(values).__name__} of {len(values)}")
+        if hasattr(values, "_fields"):
+            self._add_class(type(values))
         for value in values:
             self.add(value)
 
@@ -113,8 +140,17 @@ class Fingerprint:
         for name, value in references(function, bound).items():
             self._text(name)
             self.add(value)
-            if is_own_module(value):
-                self.add(list(module_functions(value, names_used(function.__code__)).items()))
+            self._add_module(value, function.__code__)
+
+    def _add_module(self, module: Any, code: types.CodeType) -> None:
+        """What `code` may use of a user's module, and of the modules in it."""
+        if not is_own_module(module) or (id(module), id(code)) in self._modules:
+            return
+        self._modules.add((id(module), id(code)))
+        for name, value in module_functions(module, names_used(code)).items():
+            self._text(name)
+            self.add(value)
+            self._add_module(value, code)
 
 
 class Specialiser:
@@ -123,6 +159,7 @@ class Specialiser:
     def __init__(self, compile: Callable[[types.FunctionType], Any], twins: Mapping[Any, Any]):
         self._compile = compile
         self._done: dict[int, Any] = {}
+        self._modules: dict[tuple[int, int], types.ModuleType] = {}
         self._twins = {id(f): twin for f, twin in twins.items()}
         self._alive: list[Any] = list(twins)
 
@@ -164,7 +201,10 @@ class Specialiser:
         return self._done[id(function)]
 
     def _module(self, module: types.ModuleType, code: types.CodeType) -> types.ModuleType:
-        stand_in = types.ModuleType(module.__name__)
-        for name, value in module_functions(module, names_used(code)).items():
-            setattr(stand_in, name, self._counterpart(value, code))
-        return stand_in
+        key = (id(module), id(code))
+        if key not in self._modules:
+            self._alive += [module, code]
+            stand_in = self._modules[key] = types.ModuleType(module.__name__)  # before its members:
+            for name, value in module_functions(module, names_used(code)).items():  # they may use it
+                setattr(stand_in, name, self._counterpart(value, code))
+        return self._modules[key]
