@@ -1,0 +1,198 @@
+"""Microfacet models put together from parts: distribution, masking, Fresnel, normalisation.
+
+f = F(h.v) D(h) G/(N mu_i mu_o)  [1/sr],  N = 4, or pi as Cook & Torrance have it
+
+Sampling: visible normals of GGX with the same width; the tails of the other distributions are
+lighter, so weights stay bounded (Beckmann: D/D_ggx <= 4/e).
+distribution: ggx, beckmann (width alpha, 1e-4 to 1) or blinn_phong (exponent n, 0 to 1e7, which is
+like alpha = sqrt(2/(n+2))).
+masking: smith (height-correlated) and separable, both with the exact Lambda of the distribution;
+v_cavity; walter (rational fit of Beckmann's G1); kelemen (G = mu_i mu_o/(h.v)^2); implicit
+(G = mu_i mu_o); none; schlick_k_direct and schlick_k_ibl.
+fresnel: one, schlick (f0), dielectric (eta >= 1), conductor (eta, k).
+Source: Cook & Torrance 1982; Walter et al. 2007; Heitz 2014; Kelemen & Szirmay-Kalos 2001; Schlick
+1994; Karis 2013. Blinn-Phong's exact Lambda: formulas.md, section 6.
+Violates: energy conservation without masking (without bound at grazing), with walter for
+blinn_phong (1.25 at grazing, n = 1) and when divided by pi (4/pi = 1.273 for smooth surfaces).
+"""
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from montecarlo_brdf.models import _fresnel, _masking, _smith
+from montecarlo_brdf.models._microfacet import (
+    beckmann_density,
+    ggx_density,
+    ggx_visible_pdf,
+    half_power,
+    half_sums,
+    sample_visible,
+    schlick,
+    stretched,
+)
+from montecarlo_brdf.models._mirror_lobe import width
+from montecarlo_brdf.vectors import Vec
+
+
+class Params(NamedTuple):
+    """Every parameter comes with the parts picked."""
+
+
+class Prepared(NamedTuple):
+    alpha: float  # width of the distribution
+    n: float
+    series: tuple[float, ...]
+    index: tuple[float, float]  # what the Fresnel part needs
+
+
+def ggx_shape(p: Params) -> tuple[float, float, tuple[float, ...]]:
+    return p.alpha, 0.0, (0.0,)
+
+
+def ggx(h: Vec, p: Prepared) -> float:
+    return ggx_density(h, p.alpha)
+
+
+def ggx_hidden(w: Vec, p: Prepared) -> float:
+    side2 = w[0] * w[0] + w[1] * w[1]
+    return 0.5 * p.alpha * p.alpha * side2 / (stretched(w, p.alpha) + w[2])
+
+
+def beckmann(h: Vec, p: Prepared) -> float:
+    return beckmann_density(h, p.alpha)
+
+
+def beckmann_hidden(w: Vec, p: Prepared) -> float:
+    return _smith.beckmann_hidden(w, p.alpha)
+
+
+def blinn_phong_shape(p: Params) -> tuple[float, float, tuple[float, ...]]:
+    return width(p.n), p.n, _smith.blinn_phong_series(p.n)
+
+
+def blinn_phong(h: Vec, p: Prepared) -> float:
+    return (p.n + 2.0) / (2.0 * math.pi) * half_power(h, p.n)
+
+
+def blinn_phong_hidden(w: Vec, p: Prepared) -> float:
+    return _smith.blinn_phong_hidden(w, p.n, p.series)
+
+
+def one(h: Vec, p: Prepared) -> float:
+    return 1.0
+
+
+def schlick_f0(h: Vec, p: Prepared) -> float:
+    return schlick(h, p.index[0])
+
+
+def dielectric(h: Vec, p: Prepared) -> float:
+    return _fresnel.dielectric(0.5 * math.sqrt(h[2]), p.index[0])
+
+
+def conductor(h: Vec, p: Prepared) -> float:
+    return _fresnel.conductor(0.5 * math.sqrt(h[2]), p.index[0], p.index[1])
+
+
+def no_index(p: Params) -> tuple[float, float]:
+    return 0.0, 0.0
+
+
+def f0_index(p: Params) -> tuple[float, float]:
+    return p.f0, 0.0
+
+
+def real_index(p: Params) -> tuple[float, float]:
+    return p.eta, 0.0
+
+
+def complex_index(p: Params) -> tuple[float, float]:
+    return p.eta, p.k
+
+
+def four() -> float:
+    return 4.0
+
+
+def pi() -> float:
+    return math.pi
+
+
+ALPHA = {"params": {"alpha": 0.3}, "domain": {"alpha": (1e-4, 1.0)}}
+choices = {
+    "distribution": {
+        "ggx": {"functions": {"density": ggx, "hidden": ggx_hidden, "shape": ggx_shape}, **ALPHA},
+        "beckmann": {
+            "functions": {"density": beckmann, "hidden": beckmann_hidden, "shape": ggx_shape},
+            **ALPHA,
+        },
+        "blinn_phong": {
+            "functions": {
+                "density": blinn_phong,
+                "hidden": blinn_phong_hidden,
+                "shape": blinn_phong_shape,
+            },
+            "params": {"n": 32.0},
+            "domain": {"n": (0.0, 1e7)},
+        },
+    },
+    "masking": {
+        "smith": _masking.smith,
+        "separable": _masking.separable,
+        "v_cavity": _masking.v_cavity,
+        "walter": _masking.walter,
+        "kelemen": _masking.kelemen,
+        "implicit": _masking.implicit,
+        "none": {
+            "functions": {"masking": _masking.none},
+            "disclaims": {"energy": "reflects without bound at grazing"},
+        },
+        "schlick_k_direct": _masking.schlick_k_direct,
+        "schlick_k_ibl": _masking.schlick_k_ibl,
+    },
+    "fresnel": {
+        "one": {"functions": {"fresnel": one, "index": no_index}},
+        "schlick": {
+            "functions": {"fresnel": schlick_f0, "index": f0_index},
+            "params": {"f0": 1.0},
+            "domain": {"f0": (0.0, 1.0)},
+        },
+        "dielectric": {
+            "functions": {"fresnel": dielectric, "index": real_index},
+            "params": {"eta": 1.5},
+            "domain": {"eta": (1.0, 10.0)},
+        },
+        "conductor": {
+            "functions": {"fresnel": conductor, "index": complex_index},
+            "params": {"eta": 0.2, "k": 3.9},
+            "domain": {"eta": (0.01, 10.0), "k": (0.0, 20.0)},
+        },
+    },
+    "normalisation": {"4": four, "pi": pi},
+}
+density, hidden, shape = ggx, ggx_hidden, ggx_shape
+masking, fresnel, index, normalisation = _masking.smith, one, no_index, four
+lobe = ("half vector", lambda p: p.alpha if "alpha" in p._fields else width(p.n))
+
+
+def prepare(p: Params) -> Prepared:
+    """The numbers that the parts picked need."""
+    return Prepared(*shape(p), index(p))
+
+
+def f(wo: Vec, wi: Vec, p: Prepared) -> float:
+    """F D G/(N mu_i mu_o)."""
+    h = half_sums(wo, wi)
+    visible = masking(h, (wo[2], wi[2]), (hidden(wo, p), hidden(wi, p)), p.alpha)
+    return fresnel(h, p) * density(h, p) * visible / normalisation()
+
+
+def sample(wo: Vec, u: Vec, p: Prepared) -> Vec:
+    """Reflection by a visible normal of GGX."""
+    return sample_visible(wo, u, p.alpha, p.alpha)
+
+
+def pdf(wo: Vec, wi: Vec, p: Prepared) -> float:
+    """G1(wo) D/(4 mu_o) of GGX."""
+    return ggx_visible_pdf(wo, wi, p.alpha)
