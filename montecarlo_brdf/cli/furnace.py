@@ -52,8 +52,11 @@ def command(**options: Any) -> int:
     from montecarlo_brdf import loading, verify
     from montecarlo_brdf.cli._progress import progress
     from montecarlo_brdf.cli._values import number, numbers, parameter_sets
+    from montecarlo_brdf.report.plots import kind_of, plot
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])
+    if options["plot"]:
+        kind_of(options["plot"])
     model = loading.load(options["spec"])
     sets = parameter_sets(model, options["assignments"])
     names = options["sampler"].split(",")
@@ -73,8 +76,6 @@ def command(**options: Any) -> int:
             curve=bool(options["plot"] or options["export_json"]),
         )
     if options["plot"]:
-        from montecarlo_brdf.report.plots import plot
-
         plot(report.to_dict(), options["plot"])
     return _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]

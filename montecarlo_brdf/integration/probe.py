@@ -28,17 +28,22 @@ def check(model: Model, p: Any) -> None:
             for wi in DIRECTIONS:
                 _number(model, "f", _called(model, "f", model.f, wo, wi, ready))
         if model.sample:
-            drawn = _called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)
-            if not isinstance(drawn, tuple) or len(drawn) not in (3, 4):
-                raise ModelError(
-                    f"sample of model {model.name} must return (x, y, z) or (x, y, z, weight), "
-                    f"not {_shown(drawn)}"
-                )
-            for value in drawn:
+            for value in _drawn(model, ready):
                 _number(model, "sample", value)
         if model.pdf:
             pair = DIRECTIONS[0], DIRECTIONS[1]
             _number(model, "pdf", _called(model, "pdf", model.pdf, *pair, ready))
+
+
+def _drawn(model: Model, ready: Any) -> tuple[Any, ...]:
+    """One result of `sample`."""
+    drawn = _called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)
+    if not isinstance(drawn, tuple) or len(drawn) not in (3, 4):
+        raise ModelError(
+            f"sample of model {model.name} must return (x, y, z) or (x, y, z, weight), "
+            f"not {_shown(drawn)}"
+        )
+    return drawn
 
 
 def _called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
@@ -70,7 +75,7 @@ def returns_weight(model: Model) -> bool:
         return False
     defaults = model.verified[0] if model.verified else model.parameters()
     ready = model.prepared(channels(defaults)[0])
-    return len(_called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)) == 4
+    return len(_drawn(model, ready)) == 4
 
 
 def highest(model: Model, ready: Any, wo: Vec) -> float:

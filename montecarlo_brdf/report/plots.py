@@ -5,7 +5,7 @@ import io
 from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf.errors import OutputError, UserError
+from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.report.write import write_bytes
 
 KINDS = ("png", "svg", "pdf")
@@ -17,9 +17,7 @@ MOST_SERIES = len(COLOURS)
 
 def plot(report: dict[str, Any], path: Path) -> None:
     """Draw a report into a PNG, SVG or PDF file."""
-    kind = path.suffix.lstrip(".").lower()
-    if kind not in KINDS:
-        raise OutputError(f"cannot draw {path}: the name must end in .png, .svg or .pdf")
+    kind = kind_of(path)
     if report.get("command") != "furnace":
         raise UserError(f"there is no picture for a report of {report.get('command')!r}")
     import matplotlib
@@ -31,6 +29,14 @@ def plot(report: dict[str, Any], path: Path) -> None:
     with matplotlib.rc_context({"svg.hashsalt": "montecarlo_brdf"}):
         figure.savefig(content, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else {})
     write_bytes(path, content.getvalue())
+
+
+def kind_of(path: Path) -> str:
+    """"png", "svg" or "pdf", or a UserError."""
+    kind = path.suffix.lstrip(".").lower()
+    if kind not in KINDS:
+        raise UserError(f"cannot draw {path}: the name must end in .png, .svg or .pdf")
+    return kind
 
 
 def albedo_figure(report: dict[str, Any]) -> Any:
