@@ -1,0 +1,71 @@
+"""Fixtures that all tests share. Kernels compile once per session, into a directory of its own."""
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from montecarlo_brdf.cli import run
+
+
+class Outcome(NamedTuple):
+    """What a command left behind."""
+
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture(scope="session", autouse=True)
+def kernel_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An empty cache: a test session depends on nothing that was compiled before it."""
+    folder = tmp_path_factory.mktemp("kernels")
+    os.environ["BRDF_CHECK_CACHE_DIR"] = str(folder)
+    return folder
+
+
+@pytest.fixture
+def cli(capsys: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
+    """brdf-check in this process."""
+
+    def call(*arguments: object) -> Outcome:
+        capsys.readouterr()
+        code = run([str(a) for a in arguments])
+        return Outcome(code, *capsys.readouterr())
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def process() -> Callable[..., Outcome]:
+    """brdf-check in a process of its own, with some environment variables changed."""
+
+    def call(*arguments: object, **environment: str) -> Outcome:
+        done = subprocess.run(
+            [sys.executable, "-m", "montecarlo_brdf", *map(str, arguments)],
+            capture_output=True,
+            encoding="utf-8",
+            env={**os.environ, **environment},
+            timeout=120,
+        )
+        return Outcome(done.returncode, done.stdout, done.stderr)
+
+    return call
+
+
+@pytest.fixture
+def user_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path]:
+    """Write a user's file; the folder leaves the import path with the test."""
+    monkeypatch.setattr(sys, "path", sys.path[:])
+
+    def write(text: str, name: str = "my_brdf.py") -> Path:
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
