@@ -12,12 +12,13 @@ in x it is as smooth as erfcx, for every n, and a short Chebyshev series has all
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
+from montecarlo_brdf.models._chebyshev import Eight, eight_terms, fitted
 from montecarlo_brdf.special import exp, log1p
 from montecarlo_brdf.vectors import Vec
 
 REACH = 6.4  # exp(-REACH^2) = 2e-18: nothing is masked beyond
-TERMS = 22
 BELOW_1 = 1.0 - 2.0**-52  # keeps the logarithm at the normal finite
 
 
@@ -44,47 +45,48 @@ def beckmann_hidden(w: Vec, alpha: float) -> float:
     return 0.5 * exp(-x * x) * rest
 
 
-def blinn_phong_hidden(w: Vec, n: float, series: tuple[float, ...]) -> float:
-    """mu Lambda of Blinn's distribution; `series` is `blinn_phong_series(n)`."""
-    mu = min(w[2], series[1])
-    x2 = -(0.5 * n + 1.0) * log1p(-w[2] * w[2] * BELOW_1)
-    return exp(-x2) * (series[0] - 0.5 * w[2] * chebyshev(series, 3, mapped(mu, series)))
+class Series(NamedTuple):
+    """What Blinn-Phong's Lambda needs to know about the exponent n."""
+
+    n: float
+    c: float
+    end: float  # the cosine beyond which nothing is masked
+    scale: float
+    low: Eight  # coefficients of R
+    middle: Eight
+    high: Eight
 
 
-def mapped(mu: float, series: tuple[float, ...]) -> float:
-    """[0, end] onto [-1, 1], finer near 0 by c/(mu + c)."""
-    end, c = series[1], series[2]
-    return (mu * (end + 2.0 * c) - c * end) / ((mu + c) * end)
+def blinn_phong_hidden(w: Vec, p: Series) -> float:
+    """mu Lambda of Blinn's distribution."""
+    mu = min(w[2], p.end)
+    t = (mu * (p.end + 2.0 * p.scale) - p.scale * p.end) / ((mu + p.scale) * p.end)
+    b, c = eight_terms(p.high, t, 0.0, 0.0)
+    b, c = eight_terms(p.middle, t, b, c)
+    b, c = eight_terms(p.low, t, b, c)
+    x2 = -(0.5 * p.n + 1.0) * log1p(-w[2] * w[2] * BELOW_1)
+    return exp(-x2) * (p.c - 0.5 * w[2] * (b - t * c))
 
 
-def chebyshev(series: tuple[float, ...], first: int, t: float) -> float:
-    """Sum of series[first + k] T_k(t), by Clenshaw's recurrence."""
-    b, c = 0.0, 0.0
-    for k in range(len(series) - 1, first, -1):
-        b, c = series[k] + 2.0 * t * b - c, b
-    return series[first] + t * b - c
-
-
-def blinn_phong_series(n: float) -> tuple[float, ...]:
-    """(c, end, scale of `mapped`, Chebyshev coefficients of R) for exponent n."""
+def blinn_phong_series(n: float) -> Series:
+    """Fit R in a variable that is finer near the horizon: mu/(mu + scale)."""
     import numpy as np
 
     a = 0.5 * n + 1.0
     ratio = half_step(a) / math.sqrt(math.pi)
     end = math.sqrt(-math.expm1(-REACH * REACH / a))
-    c = 2.0 / math.sqrt(a + 3.0)
+    scale = 2.0 / math.sqrt(a + 3.0)
     node, weight = np.polynomial.legendre.leggauss(64)
     y = 0.5 * REACH * (1.0 + node)
 
     def scaled_tail(t: float) -> float:
-        mu = c * end * (1.0 + t) / (2.0 * c + end - end * t)
+        mu = scale * end * (1.0 + t) / (2.0 * scale + end - end * t)
         x = math.sqrt(-a * math.log1p(-mu * mu))
         w2 = (x + y) ** 2 / a
         integrand = np.exp(-(2.0 * x + y) * y) * np.sqrt(w2 / -np.expm1(-w2))
         return float(REACH * ratio / math.sqrt(a) * np.sum(weight * integrand))
 
-    fitted = np.polynomial.chebyshev.chebinterpolate(np.vectorize(scaled_tail), TERMS - 1)
-    return ratio / (n + 1.0), end, c, *map(float, fitted)
+    return Series(n, ratio / (n + 1.0), end, scale, *fitted(scaled_tail, 24))
 
 
 def half_step(z: float) -> float:

@@ -20,7 +20,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from montecarlo_brdf.models import _fresnel, _masking, _smith
+from montecarlo_brdf.models import _masking
+from montecarlo_brdf.models._chebyshev import Eight
+from montecarlo_brdf.models._fresnel import conductor, dielectric
 from montecarlo_brdf.models._microfacet import (
     beckmann_density,
     ggx_density,
@@ -32,6 +34,11 @@ from montecarlo_brdf.models._microfacet import (
     stretched,
 )
 from montecarlo_brdf.models._mirror_lobe import width
+from montecarlo_brdf.models._smith import (
+    beckmann_hidden,
+    blinn_phong_hidden,
+    blinn_phong_series,
+)
 from montecarlo_brdf.vectors import Vec
 
 
@@ -41,20 +48,28 @@ class Params(NamedTuple):
 
 class Prepared(NamedTuple):
     alpha: float  # width of the distribution
+    fresnel0: float  # what the Fresnel part needs
+    fresnel1: float
+
+
+class PreparedBlinnPhong(NamedTuple):
+    alpha: float
+    fresnel0: float
+    fresnel1: float
     n: float
-    series: tuple[float, ...]
-    index: tuple[float, float]  # what the Fresnel part needs
-
-
-def ggx_shape(p: Params) -> tuple[float, float, tuple[float, ...]]:
-    return p.alpha, 0.0, (0.0,)
+    c: float  # from here on as in `_smith.Series`
+    end: float
+    scale: float
+    low: Eight
+    middle: Eight
+    high: Eight
 
 
 def ggx(h: Vec, p: Prepared) -> float:
     return ggx_density(h, p.alpha)
 
 
-def ggx_hidden(w: Vec, p: Prepared) -> float:
+def hidden_by_ggx(w: Vec, p: Prepared) -> float:
     side2 = w[0] * w[0] + w[1] * w[1]
     return 0.5 * p.alpha * p.alpha * side2 / (stretched(w, p.alpha) + w[2])
 
@@ -63,20 +78,20 @@ def beckmann(h: Vec, p: Prepared) -> float:
     return beckmann_density(h, p.alpha)
 
 
-def beckmann_hidden(w: Vec, p: Prepared) -> float:
-    return _smith.beckmann_hidden(w, p.alpha)
+def hidden_by_beckmann(w: Vec, p: Prepared) -> float:
+    return beckmann_hidden(w, p.alpha)
 
 
-def blinn_phong_shape(p: Params) -> tuple[float, float, tuple[float, ...]]:
-    return width(p.n), p.n, _smith.blinn_phong_series(p.n)
-
-
-def blinn_phong(h: Vec, p: Prepared) -> float:
+def blinn_phong(h: Vec, p: PreparedBlinnPhong) -> float:
     return (p.n + 2.0) / (2.0 * math.pi) * half_power(h, p.n)
 
 
-def blinn_phong_hidden(w: Vec, p: Prepared) -> float:
-    return _smith.blinn_phong_hidden(w, p.n, p.series)
+def with_alpha(p: Params, optics: tuple[float, float]) -> Prepared:
+    return Prepared(p.alpha, *optics)
+
+
+def with_exponent(p: Params, optics: tuple[float, float]) -> PreparedBlinnPhong:
+    return PreparedBlinnPhong(width(p.n), *optics, *blinn_phong_series(p.n))
 
 
 def one(h: Vec, p: Prepared) -> float:
@@ -84,54 +99,41 @@ def one(h: Vec, p: Prepared) -> float:
 
 
 def schlick_f0(h: Vec, p: Prepared) -> float:
-    return schlick(h, p.index[0])
+    return schlick(h, p.fresnel0)
 
 
-def dielectric(h: Vec, p: Prepared) -> float:
-    return _fresnel.dielectric(0.5 * math.sqrt(h[2]), p.index[0])
+def real_index(h: Vec, p: Prepared) -> float:
+    return dielectric(0.5 * math.sqrt(h[2]), p.fresnel0)
 
 
-def conductor(h: Vec, p: Prepared) -> float:
-    return _fresnel.conductor(0.5 * math.sqrt(h[2]), p.index[0], p.index[1])
+def complex_index(h: Vec, p: Prepared) -> float:
+    return conductor(0.5 * math.sqrt(h[2]), p.fresnel0, p.fresnel1)
 
 
-def no_index(p: Params) -> tuple[float, float]:
-    return 0.0, 0.0
-
-
-def f0_index(p: Params) -> tuple[float, float]:
-    return p.f0, 0.0
-
-
-def real_index(p: Params) -> tuple[float, float]:
-    return p.eta, 0.0
-
-
-def complex_index(p: Params) -> tuple[float, float]:
-    return p.eta, p.k
-
-
-def four() -> float:
+def by_four() -> float:
     return 4.0
 
 
-def pi() -> float:
+def by_pi() -> float:
     return math.pi
 
 
 ALPHA = {"params": {"alpha": 0.3}, "domain": {"alpha": (1e-4, 1.0)}}
 choices = {
     "distribution": {
-        "ggx": {"functions": {"density": ggx, "hidden": ggx_hidden, "shape": ggx_shape}, **ALPHA},
+        "ggx": {
+            "functions": {"density": ggx, "hidden": hidden_by_ggx, "shape": with_alpha},
+            **ALPHA,
+        },
         "beckmann": {
-            "functions": {"density": beckmann, "hidden": beckmann_hidden, "shape": ggx_shape},
+            "functions": {"density": beckmann, "hidden": hidden_by_beckmann, "shape": with_alpha},
             **ALPHA,
         },
         "blinn_phong": {
             "functions": {
                 "density": blinn_phong,
                 "hidden": blinn_phong_hidden,
-                "shape": blinn_phong_shape,
+                "shape": with_exponent,
             },
             "params": {"n": 32.0},
             "domain": {"n": (0.0, 1e7)},
@@ -152,33 +154,33 @@ choices = {
         "schlick_k_ibl": _masking.schlick_k_ibl,
     },
     "fresnel": {
-        "one": {"functions": {"fresnel": one, "index": no_index}},
+        "one": {"functions": {"fresnel": one, "optics": lambda p: (0.0, 0.0)}},
         "schlick": {
-            "functions": {"fresnel": schlick_f0, "index": f0_index},
+            "functions": {"fresnel": schlick_f0, "optics": lambda p: (p.f0, 0.0)},
             "params": {"f0": 1.0},
             "domain": {"f0": (0.0, 1.0)},
         },
         "dielectric": {
-            "functions": {"fresnel": dielectric, "index": real_index},
+            "functions": {"fresnel": real_index, "optics": lambda p: (p.eta, 0.0)},
             "params": {"eta": 1.5},
             "domain": {"eta": (1.0, 10.0)},
         },
         "conductor": {
-            "functions": {"fresnel": conductor, "index": complex_index},
+            "functions": {"fresnel": complex_index, "optics": lambda p: (p.eta, p.k)},
             "params": {"eta": 0.2, "k": 3.9},
             "domain": {"eta": (0.01, 10.0), "k": (0.0, 20.0)},
         },
     },
-    "normalisation": {"4": four, "pi": pi},
+    "normalisation": {"4": by_four, "pi": by_pi},
 }
-density, hidden, shape = ggx, ggx_hidden, ggx_shape
-masking, fresnel, index, normalisation = _masking.smith, one, no_index, four
+density, hidden, shape, masking = ggx, hidden_by_ggx, with_alpha, _masking.smith
+fresnel, optics, normalisation = one, None, by_four
 lobe = ("half vector", lambda p: p.alpha if "alpha" in p._fields else width(p.n))
 
 
 def prepare(p: Params) -> Prepared:
     """The numbers that the parts picked need."""
-    return Prepared(*shape(p), index(p))
+    return shape(p, optics(p))
 
 
 def f(wo: Vec, wi: Vec, p: Prepared) -> float:
