@@ -62,7 +62,7 @@ MISTAKES = {
     "furnace --model lambert --samples 1e20": ("from 1 to 2^40", "100000000000000000000"),
     "furnace --model lambert --samples 100000000000000000000": ("from 1 to 2^40",),
     "furnace --model lambert --samples 2^99999999": ("2^99999999", "is not a whole number"),
-    "furnace --model lambert --points halton": ("no point set 'halton'", "independent, sobol"),
+    "furnace --model lambert --points halton": ("no point set 'halton'", "independent", "sobol"),
     "furnace --model lambert --sampler cosin": ("did you mean 'cosine'?", "all, uniform, cosine"),
     "furnace --model lambert --sampler own,best": ("no sampler 'best'", "uniform, cosine, own"),
     "furnace --model lambert --format xml": ("no format 'xml'", "text, json"),
@@ -82,7 +82,7 @@ MISTAKES = {
     "furnace --model lambert stray": ("unexpected extra argument (stray)",),
     "furnace": ("--model", "see brdf-check furnace --help"),
     "furnac": ("did you mean 'furnace'?", "identities, models, plot, show"),
-    "identities --points halton": ("no point set 'halton'", "independent, sobol"),
+    "identities --points halton": ("no point set 'halton'", "independent", "sobol"),
     "plot missing.json -o a.png": ("cannot read missing.json", "No such file"),
     "plot": ("'REPORT'", "see brdf-check plot --help"),
 }
