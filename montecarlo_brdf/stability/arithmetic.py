@@ -1,0 +1,117 @@
+"""The number types of the ladder, from half precision to 50 digits."""
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.errors import UserError, unknown
+
+DIGITS = 50
+
+
+@dataclass(frozen=True, eq=False)
+class Arithmetic:
+    """A number type: its limits, and its operations where they are not NumPy's own."""
+
+    name: str
+    dtype: Any
+    eps: float  # spacing of the numbers just above 1
+    tiny: float  # smallest normal number
+    least: float  # smallest number
+    most: float  # largest number, in a double if it fits
+    tolerance: float  # relative error that is allowed by default
+    functions: Mapping[str, Callable[..., Any]]
+    convert: Callable[[Any], Any] | None = None
+
+    def __repr__(self) -> str:
+        return self.name
+
+    def array(self, values: Any) -> Any:
+        """Numbers rounded to this type."""
+        values = np.asarray(values)
+        if values.dtype == self.dtype:
+            return values
+        if self.convert:
+            return np.asarray(np.frompyfunc(self.convert, 1, 1)(values), dtype=object)
+        with np.errstate(all="ignore"):
+            return values.astype(self.dtype)
+
+    def function(self, name: str) -> Callable[..., Any]:
+        """The operation `name` of this type: NumPy's unless it has its own."""
+        return self.functions.get(name) or getattr(np, name)
+
+
+def _float(name: str, tolerance: float, dtype: Any = None, info: Any = None) -> Arithmetic:
+    dtype = np.dtype(dtype or name)
+    info = info or np.finfo(dtype)
+    limits = (info.eps, info.tiny, info.smallest_subnormal, info.max)
+    return Arithmetic(name, dtype, *map(float, limits), tolerance, {})
+
+
+def _bfloat16() -> Arithmetic | None:
+    try:
+        import ml_dtypes
+    except ImportError:
+        return None
+    info = ml_dtypes.finfo(ml_dtypes.bfloat16)
+    return _float("bfloat16", 0.5, ml_dtypes.bfloat16, info)
+
+
+@functools.cache
+def ladder() -> dict[str, Arithmetic]:
+    """All types of this machine by name, the narrowest first.
+
+    Tolerances: 1e-5 in single and 1e-13 in double are 84 and 450 roundings; half precision gets
+    about a hundred as well. Constants of a source are doubles, so long double can promise no more
+    than double.
+    """
+    found = [_bfloat16(), _float("float16", 0.1), _float("float32", 1e-5), _float("float64", 1e-13)]
+    if np.finfo(np.longdouble).eps < np.finfo(np.float64).eps:  # on some machines they are the same
+        found.append(_float("longdouble", 1e-13, np.longdouble))
+    return {one.name: one for one in found if one}
+
+
+def precision(name: str) -> Arithmetic:
+    """The type called `name`, or a UserError."""
+    if name not in ladder():
+        raise UserError(unknown("precision", name, ladder()))
+    return ladder()[name]
+
+
+def wider(one: Arithmetic) -> Arithmetic:
+    """The type that serves as truth for `one` at every point."""
+    following = {"bfloat16": "float64", "float16": "float64", "float32": "float64"}
+    name = following.get(one.name, "longdouble" if one.name == "float64" else "exact")
+    return ladder().get(name) or exact()
+
+
+@functools.cache
+def exact() -> Arithmetic:
+    """Arithmetic of 50 digits, by mpmath, on arrays of objects. Needs mpmath installed."""
+    try:
+        import mpmath
+    except ImportError as error:
+        raise UserError("the exact arithmetic of `stress` needs the package mpmath") from error
+    from montecarlo_brdf.stability.elementary import exact_functions
+
+    context = mpmath.mp.clone()
+    context.dps = DIGITS
+    eps = float(context.eps)
+
+    def convert(x: Any) -> Any:
+        return x if isinstance(x, context.mpf) else _exactly(context, x)
+
+    limits = (eps, 0.0, 0.0, float("inf"))
+    return Arithmetic("exact", np.dtype(object), *limits, eps, exact_functions(context), convert)
+
+
+def _exactly(context: Any, x: Any) -> Any:
+    """x without rounding, also a long double, which is a sum of two doubles."""
+    with np.errstate(all="ignore"):
+        high = float(x)
+        low = float(x - type(x)(high)) if isinstance(x, np.longdouble) and np.isfinite(x) else 0.0
+    return context.mpf(high) + context.mpf(low)

@@ -1,0 +1,150 @@
+"""Elementary functions in every type: what stands for `math`, and for our polynomials.
+
+The polynomials of `special` and their bit tricks are made for doubles. In double they run as they
+are, on words of 64 bits; in any other type the type's own exp, log, sin, cos stand for them, as
+they would on a processor of that precision.
+"""
+from __future__ import annotations
+
+import math
+import types
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf import bits, special
+from montecarlo_brdf.stability.arithmetic import Arithmetic
+from montecarlo_brdf.stability.batch import Batch, Whole
+
+#: Functions of `math` and NumPy's names for them.
+NAMES = {
+    "sqrt": "sqrt", "exp": "exp", "exp2": "exp2", "expm1": "expm1", "log": "log", "log2": "log2",
+    "log10": "log10", "log1p": "log1p", "sin": "sin", "cos": "cos", "tan": "tan", "asin": "arcsin",
+    "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "sinh": "sinh", "cosh": "cosh",
+    "tanh": "tanh", "pow": "power", "fabs": "absolute", "hypot": "hypot", "copysign": "copysign",
+    "floor": "floor", "ceil": "ceil", "trunc": "trunc", "fmod": "fmod", "radians": "radians",
+    "degrees": "degrees", "isfinite": "isfinite", "isnan": "isnan", "isinf": "isinf",
+}  # fmt: skip
+
+
+def twins(arithmetic: Arithmetic) -> dict[Any, Any]:
+    """What stands for the functions of `math`, `numpy`, `special` and `bits` in a type."""
+
+    def twin(name: str) -> Callable[..., Any]:
+        def function(*operands: Any) -> Any:
+            batch = next((o for o in operands if isinstance(o, Batch)), None)
+            if batch is None:
+                batch = Batch(None, arithmetic)  # constants, rounded like everything else
+            return batch.apply(name, *operands)
+
+        function.__name__ = name
+        return function
+
+    module = types.SimpleNamespace(**{k: v for k, v in vars(math).items() if not callable(v)})
+    found: dict[Any, Any] = {math: module}
+    for name, numpy_name in NAMES.items():
+        function = twin(numpy_name)
+        setattr(module, name, function)
+        found[getattr(math, name)] = function
+    module.erf, module.erfc = twin("erf"), twin("erfc")
+    found[math.erf], found[math.erfc] = module.erf, module.erfc
+    own = _words(arithmetic) if arithmetic.name == "float64" else _stand_ins(module)
+    return {**found, **own}
+
+
+def _words(arithmetic: Arithmetic) -> dict[Any, Any]:
+    """Doubles as words and back, on arrays."""
+
+    def word_of(x: Any) -> Any:
+        values = np.asarray(x.values if isinstance(x, Batch) else x, dtype=np.float64)
+        return Whole(values.view(np.int64), arithmetic)
+
+    def double_of(word: Any) -> Any:
+        return Batch(np.asarray(getattr(word, "values", word)).view(np.float64), arithmetic)
+
+    return {bits.word_of: word_of, bits.double_of: double_of}
+
+
+def _stand_ins(m: Any) -> dict[Any, Any]:
+    """What stands for each polynomial of `special`."""
+    by_name: Mapping[str, Callable[..., Any]] = {
+        "exp": m.exp,
+        "exp2": m.exp2,
+        "expm1": m.expm1,
+        "log": m.log,
+        "log2": m.log2,
+        "log1p": m.log1p,
+        "log2_1p": lambda y: m.log1p(y) * (1.0 / math.log(2.0)),
+        "sin_half_turn": lambda t: m.sin(math.pi * t),
+        "cos_half_turn": lambda t: m.cos(math.pi * t),
+        "turn": lambda u: (m.cos(m.tau * (u - 0.5)), m.sin(m.tau * (u - 0.5))),
+        "asin_low": m.asin,
+        "erfcx": lambda a: m.exp(a * a) * m.erfc(a),
+    }
+    return {getattr(special, k): v for k, v in by_name.items() if hasattr(special, k)}
+
+
+def exact_functions(context: Any) -> dict[str, Callable[..., Any]]:
+    """NumPy's names for mpmath's functions, on arrays of objects, NaN where they are not real."""
+    nan, inf = context.nan, context.inf
+
+    def real(function: Callable[..., Any]) -> Callable[..., Any]:
+        def value(*x: Any) -> Any:
+            try:
+                y = function(*x)
+            except (ValueError, ZeroDivisionError, OverflowError):
+                return nan
+            return nan if isinstance(y, context.mpc) else y
+
+        return value
+
+    def quotient(a: Any, b: Any) -> Any:
+        if b == 0:
+            return nan if a == 0 or context.isnan(a) else (inf if a > 0 else -inf)
+        return a / b
+
+    def logarithm(function: Callable[..., Any], pole: int) -> Callable[..., Any]:
+        return lambda x: -inf if x == pole else function(x)
+
+    def power(a: Any, b: Any) -> Any:
+        return inf if a == 0 and b < 0 else a**b
+
+    own = {
+        "true_divide": quotient,
+        "power": power,
+        "sqrt": context.sqrt,
+        "exp2": lambda x: context.power(2, x),
+        "log": logarithm(context.log, 0),
+        "log2": logarithm(lambda x: context.log(x, 2), 0),
+        "log10": logarithm(context.log10, 0),
+        "log1p": logarithm(context.log1p, -1),
+        "arcsin": context.asin, "arccos": context.acos, "arctan": context.atan,
+        "arctan2": context.atan2, "floor": context.floor, "ceil": context.ceil,
+        "trunc": lambda x: context.floor(x) if x >= 0 else context.ceil(x),
+        "rint": context.nint,
+        "copysign": lambda a, b: abs(a) if b >= 0 else -abs(a),
+        "remainder": lambda a, b: a - b * context.floor(a / b),
+    }  # fmt: skip
+    same = "exp expm1 sin cos tan sinh cosh tanh hypot erf erfc radians degrees".split()
+    own |= {name: getattr(context, name) for name in same}
+    conditions = {
+        "isfinite": lambda x: bool(context.isfinite(x)),
+        "isnan": lambda x: bool(context.isnan(x)),
+        "isinf": lambda x: bool(context.isinf(x)),
+        "less": lambda a, b: a < b, "less_equal": lambda a, b: a <= b,
+        "greater": lambda a, b: a > b, "greater_equal": lambda a, b: a >= b,
+        "equal": lambda a, b: a == b, "not_equal": lambda a, b: a != b,
+    }  # fmt: skip
+    return {
+        **{name: _on_arrays(real(f), f, object) for name, f in own.items()},
+        **{name: _on_arrays(f, f, bool) for name, f in conditions.items()},
+    }
+
+
+def _on_arrays(function: Callable[..., Any], original: Any, dtype: Any) -> Callable[..., Any]:
+    def applied(*operands: Any) -> Any:
+        ufunc = np.frompyfunc(function, len(operands), 1)
+        return np.asarray(ufunc(*operands), dtype=dtype)
+
+    return applied

@@ -1,0 +1,109 @@
+"""How wrong a value is, and how much of that its inputs explain."""
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from montecarlo_brdf.stability.arithmetic import Arithmetic
+from montecarlo_brdf.stability.ladder import Rung, rounded, unit
+
+
+class Errors(NamedTuple):
+    """Per point: the value, the truth, the relative errors, and what happened to the number."""
+
+    value: Any
+    truth: Any
+    total: Any  # |value - truth|/|truth| beyond eps times the largest |f| of the same wo
+    own: Any  # the same beyond what one rounding of the inputs does to the truth
+    kinds: dict[str, Any]  # "nan", "inf", "negative", "flushed": conditions per point
+
+
+def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
+    """Errors of f at points and parameters of the narrow type; truth at renormalised directions."""
+    type_, truth_type = narrow.arithmetic, wide.arithmetic
+    value = narrow.f(points.wo, points.wi, p)
+    q = rounded(p, truth_type)
+    wo, wi = unit(points.wo, truth_type), unit(points.wi, truth_type)
+    truth = wide.f(wo, wi, q)
+    conditioning = _conditioning(wide, points, q, truth, type_)
+    with np.errstate(all="ignore"):
+        return judged(value, truth, conditioning, points.group, type_, truth_type)
+
+
+def judged(
+    value: Any, truth: Any, conditioning: Any, group: Any, type_: Arithmetic, truth_type: Arithmetic
+) -> Errors:
+    """The relative errors of values against their truth."""
+    shown = truth_type.array(value)
+    size = np.abs(truth)
+    real = _finite(truth)
+    largest = largest_of(np.where(real, size, truth_type.array(0.0)), group)
+    off = np.abs(shown - truth)
+    granted = truth_type.array(type_.eps) * largest + truth_type.array(type_.least)
+    kinds = {
+        "nan": _is_nan(shown),
+        "inf": _is_inf(shown) & (size <= type_.most),
+        "negative": (shown < 0) & (truth >= 0),
+        "flushed": (shown == 0) & (size >= type_.tiny),
+    }
+    beyond = _double((off - granted) / size), _double((off - granted - 2 * conditioning) / size)
+    total, own = (_clean(b, kinds, real & (size <= type_.most) & (size > 0)) for b in beyond)
+    own = np.where(_double(conditioning) >= _double(size) / 4, 0.0, own)  # no digit is determined
+    return Errors(value, truth, total, np.minimum(own, total), kinds)
+
+
+def _clean(relative: Any, kinds: dict[str, Any], representable: Any) -> Any:
+    relative = np.where(representable & (relative > 0), relative, 0.0)
+    return np.where(kinds["inf"] | (kinds["nan"] & representable), np.inf, relative)
+
+
+def _conditioning(wide: Rung, points: Any, q: Any, truth: Any, narrow: Arithmetic) -> Any:
+    """How far the true value moves when the directions move by their own rounding.
+
+    It is the sum over the six components of |f(w (1 + eps)) - f(w)|/2, and |f(w) - f(w/|w|)|,
+    because a function that assumes unit vectors cannot know that these are not.
+    """
+    exact = wide.arithmetic.array
+    wo, wi = exact(points.wo), exact(points.wi)
+    zero = exact(0.0)
+    raw = wide.f(wo, wi, q)
+
+    def moved(value: Any, scale: float) -> Any:
+        with np.errstate(all="ignore"):
+            step = np.abs(value - raw) * scale
+        return np.where(_finite(step), step, zero)
+
+    with np.errstate(all="ignore"):
+        off = np.abs(raw - truth)
+    total = np.where(_finite(off), off, zero)
+    for w, which in ((wo, 0), (wi, 1)):
+        for k in range(3):
+            turned = w.copy()
+            turned[:, k] = turned[:, k] * exact(1.0 + narrow.eps)
+            pair = (turned, wi) if which == 0 else (wo, turned)
+            total = total + moved(wide.f(*pair, q), 0.5)
+    return total
+
+
+def largest_of(size: Any, group: Any) -> Any:
+    """The largest size within each group, at every member of it."""
+    starts = np.flatnonzero(np.r_[True, group[1:] != group[:-1]])
+    tops = np.maximum.reduceat(size, starts)
+    return np.repeat(tops, np.diff(np.r_[starts, len(group)]))
+
+
+def _double(x: Any) -> Any:
+    return np.asarray(x).astype(np.float64)
+
+
+def _finite(x: Any) -> Any:
+    return np.isfinite(_double(x)) if x.dtype == object else np.isfinite(x)
+
+
+def _is_nan(x: Any) -> Any:
+    return np.isnan(_double(x) if x.dtype == object else x)
+
+
+def _is_inf(x: Any) -> Any:
+    return np.isinf(_double(x) if x.dtype == object else x)

@@ -1,0 +1,133 @@
+"""A model's own functions in any precision."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.integration.specialise import Specialiser
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.stability.arithmetic import Arithmetic
+from montecarlo_brdf.stability.batch import Batch, Mixed, Widened, over_points
+from montecarlo_brdf.stability.elementary import twins
+
+
+class Rung:
+    """f, sample and pdf of a model in one precision.
+
+    Directions are arrays (n, 3); parameters a NamedTuple whose fields are numbers or arrays (n,),
+    all rounded to the precision already.
+    """
+
+    def __init__(self, model: Model, arithmetic: Arithmetic) -> None:
+        self.model = model
+        self.arithmetic = arithmetic
+        self._special = Specialiser(lambda function: function, twins(arithmetic))
+        self._rebound: dict[str, Callable[..., Any]] = {}
+
+    def f(self, wo: Any, wi: Any, p: Any) -> Any:
+        """f(wo, wi, p) per point."""
+        return self._called("f", wo, wi, p)[0]
+
+    def pdf(self, wo: Any, wi: Any, p: Any) -> Any:
+        """pdf(wo, wi, p) per point."""
+        return self._called("pdf", wo, wi, p)[0]
+
+    def sample(self, wo: Any, u: Any, p: Any) -> Any:
+        """Rows x, y, z (and weight) drawn for the numbers u (n, 3)."""
+        return self._called("sample", wo, u, p)
+
+    def function(self, name: str) -> Callable[..., Any]:
+        """The model's function `name`, with everything it reaches bound to this precision."""
+        if name not in self._rebound:
+            original = getattr(self.model, name)
+            self._rebound[name] = self._special.clone(getattr(original, "py_func", original), {})
+        return self._rebound[name]
+
+    def _called(self, name: str, a: Any, b: Any, p: Any) -> Any:
+        function, make = self.function(name), type(p)
+        prepare = self._prepare(p)
+        columns = [*self._columns(a), *self._columns(b)]
+        columns += [self.arithmetic.array(v) for v in p] if callable(prepare) else []
+
+        def call(*row: Batch) -> Any:
+            ready = prepare(make(*row[6:])) if callable(prepare) else prepare
+            return function(row[:3], row[3:6], ready)
+
+        try:
+            return over_points(columns, call, self.arithmetic)
+        except Widened as error:
+            raise ModelError(f"{name} of model {self.model.name} leaves its precision: {error}") from error
+        except (TypeError, ValueError, AttributeError, IndexError, AssertionError) as error:
+            text = " ".join(str(error).split())
+            raise ModelError(
+                f"{name} of model {self.model.name} cannot run in {self.arithmetic}: {text}"
+            ) from error
+
+    def _columns(self, vectors: Any) -> list[Any]:
+        return [self.arithmetic.array(column) for column in np.asarray(vectors).T]
+
+    def _prepare(self, p: Any) -> Any:
+        """What turns parameters into what the functions get: a function, or that itself.
+
+        A `prepare` that only works on plain floats (tables, loops) runs in double, like the part of
+        a renderer that runs once; its results are rounded.
+        """
+        if self.model.prepare is None:
+            return lambda q: q
+        prepare = self.function("prepare")
+        try:
+            prepare(type(p)(*(Batch(self.arithmetic.array(v), self.arithmetic) for v in p)))
+        except Mixed:
+            return prepare
+        except Exception:
+            return self._rounded(self.model.prepare(type(p)(*(float(v) for v in p))))
+        return prepare
+
+    def _rounded(self, ready: Any) -> Any:
+        """Doubles in a NamedTuple as numbers of this precision, tables as tables of them."""
+        return type(ready)(*(_in(self.arithmetic, v) for v in ready))
+
+
+class Table:
+    """A read-only table whose entries are numbers of one precision."""
+
+    def __init__(self, values: Any, arithmetic: Arithmetic) -> None:
+        self.values, self.arithmetic = values, arithmetic
+        self.shape = np.shape(values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __getitem__(self, place: Any) -> Any:
+        found = self.values[place]
+        return Table(found, self.arithmetic) if np.ndim(found) else Batch(found, self.arithmetic)
+
+
+def _in(arithmetic: Arithmetic, value: Any) -> Any:
+    if isinstance(value, int | float):
+        return Batch(arithmetic.array(value), arithmetic)
+    return Table(arithmetic.array(value), arithmetic)
+
+
+def rounded(p: Any, arithmetic: Arithmetic) -> Any:
+    """A parameter set rounded to a precision, as long as it stays finite; else None."""
+    values = [arithmetic.array(v) for v in p]
+    if arithmetic.name != "exact" and not all(math.isfinite(float(v)) for v in values):
+        return None
+    return type(p)(*values)
+
+
+def unit(w: Any, arithmetic: Arithmetic) -> Any:
+    """Directions (n, 3) of exactly unit length as nearly as the precision has it."""
+    w = arithmetic.array(w)
+    scale = arithmetic.function("sqrt")(w[:, 0] ** 2 + w[:, 1] ** 2 + w[:, 2] ** 2)
+    return w / scale[:, None]
+
+
+def stacked(rows: Sequence[Any]) -> Any:
+    """Rows of vectors below each other."""
+    return np.concatenate(rows) if rows else np.zeros((0, 3))
