@@ -1,0 +1,81 @@
+"""What is averaged for reflected radiance: f L cos / pdf, one number per point u in [0, 1)^5.
+
+`F`, `SAMPLE`, `PDF` are bound to a model's functions and `SKY`, `SKY_SAMPLE`, `SKY_PDF` to a sky's;
+p = (model, sky) holds the numbers of both. A drawn direction below the horizon counts as 0.
+"""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine, random_hemisphere_cosine
+from montecarlo_brdf.vectors import Vec
+
+F: Any = None
+SAMPLE: Any = None
+PDF: Any = None
+SKY: Any = None
+SKY_SAMPLE: Any = None
+SKY_PDF: Any = None
+
+PI = math.pi
+
+
+def cosine_sample(u1: float, u2: float, p: Any) -> Vec:
+    """For a sky without a sampler of its own."""
+    return random_hemisphere_cosine(u1, u2)
+
+
+def cosine_pdf(w: Vec, p: Any) -> float:
+    """For a sky without a sampler of its own."""
+    return pdf_hemisphere_cosine(w)
+
+
+def cosine(u: Any, wo: Any, p: Any) -> float:
+    """wi cosine-weighted over the hemisphere."""
+    wi = random_hemisphere_cosine(u[0], u[1])
+    return F((wo[0], wo[1], wo[2]), wi, p.model) * SKY(wi, p.sky) * PI
+
+
+def sky(u: Any, wo: Any, p: Any) -> float:
+    """wi from the sky's sampler."""
+    wi = SKY_SAMPLE(u[0], u[1], p.sky)
+    if wi[2] <= 0.0:
+        return 0.0
+    value = F((wo[0], wo[1], wo[2]), wi, p.model) * SKY(wi, p.sky)
+    return value * wi[2] / SKY_PDF(wi, p.sky)
+
+
+def own(u: Any, wo: Any, p: Any) -> float:
+    """wi from the model's sampler."""
+    view = (wo[0], wo[1], wo[2])
+    drawn = SAMPLE(view, (u[0], u[1], u[2]), p.model)
+    if drawn[2] <= 0.0:
+        return 0.0
+    wi = (drawn[0], drawn[1], drawn[2])
+    return F(view, wi, p.model) * SKY(wi, p.sky) * wi[2] / PDF(view, wi, p.model)
+
+
+def weighted(u: Any, wo: Any, p: Any) -> float:
+    """wi from the model's sampler, which returns its weight f cos / pdf."""
+    drawn = SAMPLE((wo[0], wo[1], wo[2]), (u[0], u[1], u[2]), p.model)
+    if drawn[2] <= 0.0:
+        return 0.0
+    return drawn[3] * SKY((drawn[0], drawn[1], drawn[2]), p.sky)
+
+
+def mixed(u: Any, wo: Any, p: Any) -> float:
+    """wi from the model's sampler or the sky's, half each, over the density of the mixture.
+
+    One-sample multiple importance sampling with the balance heuristic: it sees a narrow lobe and a
+    small light alike. Source: Veach 1997, "Robust Monte Carlo methods", section 9.2.4.
+    """
+    view = (wo[0], wo[1], wo[2])
+    wi = SKY_SAMPLE(u[0], u[1], p.sky)
+    if u[4] < 0.5:
+        drawn = SAMPLE(view, (u[0], u[1], u[2]), p.model)
+        wi = (drawn[0], drawn[1], drawn[2])
+    if wi[2] <= 0.0:
+        return 0.0
+    density = 0.5 * (PDF(view, wi, p.model) + SKY_PDF(wi, p.sky))
+    return F(view, wi, p.model) * SKY(wi, p.sky) * wi[2] / density
