@@ -8,7 +8,9 @@ reached, so a cached kernel can never be stale.
 """
 from __future__ import annotations
 
+import dis
 import enum
+import functools
 import hashlib
 import os
 import types
@@ -20,6 +22,7 @@ STANDARD = ("math", "cmath", "builtins", "numpy", "numba")
 #: Values whose repr is all there is to know about them.
 PLAIN = (int, float, complex, str, bytes, type(None), type(...), slice, range)
 PLAIN_MODULES = ("numpy", "numba.core.types")
+GLOBAL_LOADS = ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
 _PROCESS = os.urandom(16)
 _unknown: dict[int, Any] = {}
 
@@ -42,10 +45,21 @@ def names_used(code: types.CodeType) -> Iterator[str]:
             yield from names_used(constant)
 
 
+@functools.lru_cache(maxsize=4096)
+def globals_used(code: types.CodeType) -> tuple[str, ...]:
+    """Names that a code object and those nested in it look up among their globals.
+
+    Attributes are not among them: `p.albedo` has nothing to do with a function `albedo`.
+    """
+    found = {i.argval for i in dis.get_instructions(code) if i.opname in GLOBAL_LOADS}
+    nested = (c for c in code.co_consts if isinstance(c, types.CodeType))
+    return tuple(sorted(found.union(*map(globals_used, nested))))
+
+
 def references(function: types.FunctionType, bound: Mapping[str, Any]) -> dict[str, Any]:
     """The global names that `function` uses and what each stands for, `bound` first."""
     found = {}
-    for name in sorted(set(names_used(function.__code__))):
+    for name in globals_used(function.__code__):
         if name in bound:
             found[name] = bound[name]
         elif name in function.__globals__:
