@@ -30,11 +30,18 @@ class Buildable(Protocol):
         ...
 
 
+class Wrapped(NamedTuple):
+    """An integrand that another one evaluates, as INSIDE, at points of its own."""
+
+    outer: Function
+    inner: Function
+
+
 class Recipe(NamedTuple):
     """All that a kernel of means is made of."""
 
     points: str
-    integrands: tuple[Function, ...]
+    integrands: tuple[Function | Wrapped, ...]
     functions: Mapping[str, Function]  # what F, SAMPLE, PDF stand for in the integrands
     layout: parameters.Layout
 
@@ -48,6 +55,9 @@ class Recipe(NamedTuple):
         content = fingerprint(self.layout)
         content.add(getattr(point_sets, self.points))
         for integrand in self.integrands:
+            if isinstance(integrand, Wrapped):
+                content.add(integrand.outer)
+                integrand = integrand.inner
             content.add(integrand, self.functions)
         content.add(kernel.moments)
         content.add(len(self.integrands))
@@ -56,7 +66,7 @@ class Recipe(NamedTuple):
     def assemble(self) -> Function:
         """The template `moments` with everything bound."""
         special = specialiser()
-        integrands = [special.bind(i, self.functions) for i in self.integrands]
+        integrands = [self._bound(special, i) for i in self.integrands]
         bound = {
             "POINTS": getattr(point_sets, self.points),
             "STORE": _store(special, integrands),
@@ -66,6 +76,12 @@ class Recipe(NamedTuple):
             "SLOTS": len(integrands),
         }
         return special.clone(kernel.moments, bound)
+
+    def _bound(self, special: Specialiser, integrand: Function | Wrapped) -> Any:
+        if isinstance(integrand, Wrapped):
+            inside = special.bind(integrand.inner, self.functions)
+            return special.bind(integrand.outer, {"INSIDE": inside})
+        return special.bind(integrand, self.functions)
 
 
 def fingerprint(layout: parameters.Layout) -> Fingerprint:

@@ -8,9 +8,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError, UserError, unknown
-from montecarlo_brdf.integration import build, integrands, kernel, parameters, probe, work
+from montecarlo_brdf.integration import build, charted, integrands, kernel, parameters, probe, work
 from montecarlo_brdf.model import Model, NoParams, channels
-from montecarlo_brdf.sampling.points import SETS
+from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import Vec, from_degrees
@@ -57,6 +57,11 @@ def check_theta(theta_deg: Any, name: str = "theta_o_deg") -> float:
     return theta
 
 
+def charts_of(model: Model) -> tuple[str, ...]:
+    """The charts fitted to what the model declares: its lobe, its kinks."""
+    return (*filter(None, (lobe_kind(model),)), *(("panels",) if model.kinks else ()))
+
+
 def samplers_of(model: Model, quantity: str = "albedo") -> tuple[str, ...]:
     """The samplers by which a quantity of this model can be estimated."""
     if model.sample and (model.pdf or (_weighted(model) and quantity != "reverse")):
@@ -80,7 +85,8 @@ def directional_albedo(
     """Directional albedo A(wo) = int f cos(theta_i) dwi, with its error bar.
 
     theta_o_deg, phi_o_deg: direction of the viewer in degrees, theta in [0, 90).
-    sampler: "uniform", "cosine" or "own"; points: "independent" or "sobol"; samples: the total over
+    sampler: "uniform", "cosine", "own" or a chart that fits the model ("half_vector", "mirror",
+    "panels"); points: "independent", "stratified", "sobol" or "lattice"; samples: the total over
     all replicates. Returns an Estimate, or a list of one per channel for a colour.
     Raises UserError for a bad value, ModelError if the model does not compile or raises.
     """
@@ -130,7 +136,7 @@ def bihemispherical_albedo(
 
 def _one(model: Model, p: Any, quantity: str, fixed: Vec, sampler: str, plan: Plan) -> Any:
     model = model.of(p)
-    offered = samplers_of(model, quantity)
+    offered = (*samplers_of(model, quantity), *charts_of(model))
     if sampler not in offered:
         raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
     names = [integrand_name(model, quantity, sampler)]
@@ -159,7 +165,34 @@ def estimates(
         {k: v for k, v in bound.items() if v is not None},
         [model.prepared(c) for c in channels(p)],
     )
-    return evaluate(subject, fixed, [getattr(integrands, n) for n in names], plan, label)
+    return evaluate(subject, query(model, p, fixed), [integrand(n) for n in names], plan, label)
+
+
+def integrand(name: str) -> Any:
+    """The integrand called `name`, plain or in a chart."""
+    return getattr(integrands, name, None) or getattr(charted, name)
+
+
+def suited_to(points: str, function: Any) -> Any:
+    """An integrand as a point set needs it: periodic for a lattice."""
+    quantity, _, sampler = function.__name__.partition("_")
+    if points != "lattice" or sampler in charted.CHARTS:
+        return function
+    twice = quantity == "bihemispherical"
+    return build.Wrapped(charted.periodised_twice if twice else charted.periodised, function)
+
+
+def query(model: Model, p: Any, fixed: Vec) -> tuple[float, ...]:
+    """What integrands get as `fixed`: the given direction and the width of the narrowest lobe."""
+    if not lobe_kind(model):
+        return (*fixed, 0.0)
+    return (*fixed, min(float(model.lobe[1](one)) for one in channels(p)))
+
+
+def lobe_kind(model: Model) -> str:
+    """"half_vector", "mirror" or "": the chart that fits the lobe that the model declares."""
+    kind = model.lobe[0].replace(" ", "_") if isinstance(model.lobe, tuple) else ""
+    return kind if kind in charted.CHARTS else ""
 
 
 def hemisphere_integral(
@@ -175,7 +208,11 @@ def hemisphere_integral(
 
 
 def evaluate(
-    subject: Subject, fixed: Vec, functions: Sequence[Any], plan: Plan, label: tuple[Any, ...]
+    subject: Subject,
+    fixed: Sequence[float],
+    functions: Sequence[Any],
+    plan: Plan,
+    label: tuple[Any, ...],
 ) -> list[list[Estimate]]:
     """The same for any functions bound into integrands; `label` names the stream with the subject."""
     check_samples(plan.samples)
@@ -187,10 +224,13 @@ def evaluate(
     rows = []
     for group in _groups(subject.sets, len(functions)):
         layout, numbers = parameters.pack(group, kernel.QUERY)
-        recipe = build.Recipe(plan.points, tuple(functions), subject.functions, layout)
+        suited = tuple(suited_to(plan.points, f) for f in functions)
+        recipe = build.Recipe(plan.points, suited, subject.functions, layout)
         entry = compiled(subject.identity[0], recipe)
         width = len(group) * len(functions)
-        job = work.Job(entry, (*fixed, 0.0, *numbers), width, key, replicates, per_replicate)
+        reals = (*(*fixed, 0.0)[: kernel.QUERY], *numbers)
+        shape = SHAPES[plan.points](per_replicate) if plan.points in SHAPES else NONE
+        job = work.Job(entry, reals, width, key, replicates, per_replicate, shape)
         results = [estimate(m) for m in work.run(job, plan.threads, plan.progress)]
         rows += [results[i : i + len(functions)] for i in range(0, width, len(functions))]
     return rows

@@ -32,9 +32,10 @@ SLOTS = 1  # integrands
 def moments(ints: Any, reals: Any, out: Any) -> None:
     """Add samples [start, start + count) of replicates [first, first + many) to `out`.
 
-    ints = (key, first, many, start, count); reals = query and parameters; out holds STATE numbers
-    per replicate, channel and integrand, all zero before the first call.
+    ints = (key, first, many, start, count, shape of the point set); reals = query and parameters;
+    out holds STATE numbers per replicate, channel and integrand, all zero before the first call.
     """
+    shape = (u64(ints[5]), u64(ints[6]), u64(ints[7]), u64(ints[8]), u64(ints[9]))
     query = (reals[0], reals[1], reals[2], reals[3])
     parameters = PARAMETERS(reals)
     x = BUFFER()
@@ -45,7 +46,7 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
         while i < stop:
             m = BLOCK if stop - i > BLOCK else stop - i
             for j in range(m):
-                u = POINTS(key, u64(i + j))
+                u = POINTS(key, u64(i + j), shape)
                 for k in range(CHANNELS):
                     STORE(u, query, parameters[k], x, k * SLOTS * BLOCK + j)
             for k in range(CHANNELS * SLOTS):

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration.kernel import STATE
 from montecarlo_brdf.integration.native import NativeKernel
+from montecarlo_brdf.sampling.keys import NONE, Shape
 from montecarlo_brdf.statistics import Moments, merged
 
 CHUNK = 1 << 17
@@ -30,6 +31,7 @@ class Job(NamedTuple):
     key: int
     replicates: int
     samples: int
+    shape: Shape = NONE  # of the point set
 
 
 class Call(NamedTuple):
@@ -80,7 +82,9 @@ def _outcomes(job: Job, threads: int) -> Iterable[list[Moments]]:
 
 def _call(job: Job, call: Call) -> list[Moments]:
     key = job.key - (1 << 64) if job.key >= 1 << 63 else job.key
-    ints = (ctypes.c_int64 * 5)(key, call.first, call.many, call.start, call.count)
+    ints = (ctypes.c_int64 * 10)(
+        key, call.first, call.many, call.start, call.count, *job.shape
+    )
     reals = (ctypes.c_double * len(job.reals))(*job.reals)
     out = (ctypes.c_double * (STATE * job.width * call.many))()
     status = job.kernel(ctypes.addressof(ints), ctypes.addressof(reals), ctypes.addressof(out))

@@ -1,95 +1,44 @@
 """Point sets: uniform numbers in [0, 1)^5 from a 64-bit key and an index, with no state.
 
-A point depends on nothing but (key, index): any order, any number of threads, the same numbers.
-A key stands for one randomisation; replicates use different keys. Coordinates that a kernel does
-not use cost nothing: the compiler removes them.
+A point depends on nothing but (key, index, shape of the set): any order, any number of threads,
+the same numbers. A key stands for one randomisation; replicates use different keys. Coordinates
+that a kernel does not use cost nothing: the compiler removes them.
 """
 from __future__ import annotations
 
-from montecarlo_brdf.bits import GOLDEN, mix64, reverse32, u32, u64, unit
+from collections.abc import Callable
+
+from montecarlo_brdf.sampling.independent import independent, independent_axis
+from montecarlo_brdf.sampling.keys import NONE, Point, Shape, axis_key, replicate_key
+from montecarlo_brdf.sampling.lattice import GENERATORS, generator, lattice
+from montecarlo_brdf.sampling.sobol import (
+    owen_reversed,
+    pascal_reversed,
+    scrambled,
+    sobol,
+    sobol_shuffled,
+)
+from montecarlo_brdf.sampling.stratified import grid, stratified
+
+__all__ = [
+    "DIMENSIONS", "NONE", "Point", "SETS", "SHAPES", "Shape", "axis_key", "counted", "independent",
+    "independent_axis", "lattice", "owen_reversed", "pascal_reversed", "replicate_key", "scrambled",
+    "sobol", "sobol_shuffled", "stratified",
+]  # fmt: skip
 
 #: name -> largest number of points per replicate, and whether it must be a power of two
-SETS = {"independent": (1 << 62, False), "sobol": (1 << 32, True)}
+SETS = {
+    "independent": (1 << 62, False),
+    "stratified": (1 << 32, True),
+    "sobol": (1 << 32, True),
+    "lattice": (1 << max(GENERATORS, default=0), True),
+}
+#: what must be known of a set before its points: from its number of points
+SHAPES: dict[str, Callable[[int], Shape]] = {"stratified": grid, "lattice": generator}
 
 DIMENSIONS = 5
 
 
-def replicate_key(key: int, replicate: int) -> int:
-    """The key of one randomisation out of many that share a stream."""
-    return mix64(u64(u64(key) ^ mix64(u64(u64(replicate) * u64(GOLDEN) + u64(1)))))
-
-
-def axis_key(key: int, axis: int) -> int:
-    """The key of one coordinate."""
-    return mix64(u64(key + axis * u64(0xD1342543DE82EF95) + u64(0x632BE59BD9B4E019)))
-
-
-def independent_axis(key: int, index: int, axis: int) -> float:
-    """SplitMix64 used as a function of its counter: word = mix(axis key + index * golden)."""
-    return unit(mix64(u64(axis_key(key, axis) + u64(index) * u64(GOLDEN))))
-
-
-def independent(key: int, index: int) -> tuple[float, float, float, float, float]:
-    """Independent uniform points; resolution 2^-53, period 2^64 per key and coordinate."""
-    return (
-        independent_axis(key, index, u64(0)),
-        independent_axis(key, index, u64(1)),
-        independent_axis(key, index, u64(2)),
-        independent_axis(key, index, u64(3)),
-        independent_axis(key, index, u64(4)),
-    )
-
-
-def owen_reversed(x: int, seed: int) -> int:
-    """Nested uniform (Owen) scrambling of a word whose first digit is its lowest bit.
-
-    Each bit is flipped depending on the bits below it only. Source: Laine & Karras 2011, EGSR;
-    constants by Vegdahl 2021, "Building a better LK hash".
-    """
-    x = x ^ u32(x * u32(0x3D20ADEA))
-    x = u32(x + seed)
-    x = u32(x * ((seed >> u32(16)) | u32(1)))
-    x = x ^ u32(x * u32(0x05526C56))
-    return x ^ u32(x * u32(0x53A22864))
-
-
-def pascal_reversed(x: int) -> int:
-    """Second Sobol coordinate of index x, first digit in the lowest bit.
-
-    Multiplication by the Pascal matrix modulo 2 (right shifts, because digits are reversed; left
-    shifts give right marginals and a wrong net). Source: Ahmed 2024, "An implementation algorithm
-    of 2D Sobol sequence fast, elegant, and compact", EGSR.
-    """
-    x = x ^ (x >> u32(16))
-    x = x ^ ((x >> u32(8)) & u32(0x00FF00FF))
-    x = x ^ ((x >> u32(4)) & u32(0x0F0F0F0F))
-    x = x ^ ((x >> u32(2)) & u32(0x33333333))
-    return x ^ ((x >> u32(1)) & u32(0x55555555))
-
-
-def scrambled(word: int, key: int, index: int, axis: int) -> float:
-    """A scrambled coordinate; the digits below 2^-32 are random, as in full Owen scrambling."""
-    seed = axis_key(key, axis)
-    digits = u32(reverse32(u32(owen_reversed(word, u32(seed >> u64(32))))))
-    return (digits + unit(mix64(u64(seed + u64(index) * u64(GOLDEN))))) * 2.3283064365386963e-10
-
-
-def sobol_shuffled(key: int, index: int, axis: int) -> int:
-    """The index in an Owen-shuffled order: pairs of coordinates that use different orders are
-    independent of each other, and each stays a (0, 2)-sequence (Burley 2020, JCGT 9(4))."""
-    seed = u32(axis_key(key, u64(16) + axis) >> u64(32))
-    return u32(reverse32(u32(owen_reversed(u32(reverse32(u32(index))), seed))))
-
-
-def sobol(key: int, index: int) -> tuple[float, float, float, float, float]:
-    """Sobol points, Owen-scrambled by hashing; coordinates (0, 1) and (2, 3) are (0, 2)-nets."""
-    i0 = u32(index)
-    i2 = sobol_shuffled(key, index, u64(2))
-    i4 = sobol_shuffled(key, index, u64(4))
-    return (
-        scrambled(i0, key, index, u64(0)),
-        scrambled(u32(pascal_reversed(i0)), key, index, u64(1)),
-        scrambled(i2, key, index, u64(2)),
-        scrambled(u32(pascal_reversed(i2)), key, index, u64(3)),
-        scrambled(i4, key, index, u64(4)),
-    )
+def counted(key: int, index: int, shape: Shape = NONE) -> Point:
+    """No points but the index itself: for integrands that look at chosen directions."""
+    return 1.0 * index, 0.0, 0.0, 0.0, 0.0

@@ -1,0 +1,145 @@
+"""Integrands in charts fitted to a model's lobe or kinks, and probes of how large integrands get.
+
+`fixed` is the given direction and the width of the lobe. An integrand named seen_* shows the value
+that albedo_* would take at one of `PROBES` directions, chosen by u[0]: a lobe that the chart does
+not fit, or that its points may miss, shows as a value far above the mean.
+"""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from montecarlo_brdf.sampling import charts
+from montecarlo_brdf.sampling.charts import smooth_step
+from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.vectors import Vec
+
+F: Any = None
+INSIDE: Any = None
+
+#: integrands of these charts are periodic already
+CHARTS = ("half_vector", "mirror", "panels")
+PROBES = 65
+LAST = 0.9999999999999999  # the largest number below 1
+
+
+def periodised(u: Any, fixed: Any, p: Any) -> float:
+    """An integrand made periodic in its first coordinate: what lattices need."""
+    w, _, slope = smooth_step(u[0])
+    return INSIDE((min(w, LAST), u[1], u[2], u[3], u[4]), fixed, p) * slope
+
+
+def periodised_twice(u: Any, fixed: Any, p: Any) -> float:
+    """The same for two directions, whose polar coordinates are u[0] and u[2]."""
+    w, _, slope = smooth_step(u[0])
+    v, _, steep = smooth_step(u[2])
+    return INSIDE((min(w, LAST), u[1], min(v, LAST), u[3], u[4]), fixed, p) * (slope * steep)
+
+
+def albedo_half_vector(u: Any, fixed: Any, p: Any) -> float:
+    """f cos dwi in the half-vector chart: E = A(wo)."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    x, y, z, area = charts.half_vector(wo, u[0], u[1], fixed[3])
+    return F(wo, (x, y, z), p) * z * area
+
+
+def reverse_half_vector(u: Any, fixed: Any, p: Any) -> float:
+    """f cos dwo in the half-vector chart: E = R(wi)."""
+    wi = (fixed[0], fixed[1], fixed[2])
+    x, y, z, area = charts.half_vector(wi, u[0], u[1], fixed[3])
+    return F((x, y, z), wi, p) * z * area
+
+
+def bihemispherical_half_vector(u: Any, fixed: Any, p: Any) -> float:
+    """wo cosine-weighted, wi in the half-vector chart."""
+    v, _, steep = smooth_step(u[2])
+    wo = random_hemisphere_cosine(min(v, LAST), u[3])
+    x, y, z, area = charts.half_vector(wo, u[0], u[1], fixed[3])
+    return F(wo, (x, y, z), p) * z * area * steep
+
+
+def albedo_mirror(u: Any, fixed: Any, p: Any) -> float:
+    """f cos dwi in the mirror chart: E = A(wo)."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    x, y, z, area = charts.mirror(wo, u[0], u[1], fixed[3])
+    return F(wo, (x, y, z), p) * z * area
+
+
+def reverse_mirror(u: Any, fixed: Any, p: Any) -> float:
+    """f cos dwo in the mirror chart: E = R(wi)."""
+    wi = (fixed[0], fixed[1], fixed[2])
+    x, y, z, area = charts.mirror(wi, u[0], u[1], fixed[3])
+    return F((x, y, z), wi, p) * z * area
+
+
+def bihemispherical_mirror(u: Any, fixed: Any, p: Any) -> float:
+    """wo cosine-weighted, wi in the mirror chart."""
+    v, _, steep = smooth_step(u[2])
+    wo = random_hemisphere_cosine(min(v, LAST), u[3])
+    x, y, z, area = charts.mirror(wo, u[0], u[1], fixed[3])
+    return F(wo, (x, y, z), p) * z * area * steep
+
+
+def albedo_panels(u: Any, fixed: Any, p: Any) -> float:
+    """f cos dwi, one direction in each panel between the kinks: E = A(wo)."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    x, y, z, area = charts.panel(wo, u[0], u[1], True)
+    high = (F(wo, (x, y, z), p) + F(wo, (-x, -y, z), p)) * area
+    x, y, z, area = charts.panel(wo, u[0], u[1], False)
+    return high + (F(wo, (x, y, z), p) + F(wo, (-x, -y, z), p)) * area
+
+
+def reverse_panels(u: Any, fixed: Any, p: Any) -> float:
+    """f cos dwo, one direction in each panel between the kinks: E = R(wi)."""
+    wi = (fixed[0], fixed[1], fixed[2])
+    x, y, z, area = charts.panel(wi, u[0], u[1], True)
+    high = (F((x, y, z), wi, p) + F((-x, -y, z), wi, p)) * area
+    x, y, z, area = charts.panel(wi, u[0], u[1], False)
+    return high + (F((x, y, z), wi, p) + F((-x, -y, z), wi, p)) * area
+
+
+def bihemispherical_panels(u: Any, fixed: Any, p: Any) -> float:
+    """wo cosine-weighted, wi in every panel."""
+    v, _, steep = smooth_step(u[2])
+    wo = random_hemisphere_cosine(min(v, LAST), u[3])
+    x, y, z, area = charts.panel(wo, u[0], u[1], True)
+    high = (F(wo, (x, y, z), p) + F(wo, (-x, -y, z), p)) * area
+    x, y, z, area = charts.panel(wo, u[0], u[1], False)
+    return (high + (F(wo, (x, y, z), p) + F(wo, (-x, -y, z), p)) * area) * steep
+
+
+def probed(wo: Vec, k: float) -> Vec:
+    """Direction k of PROBES in the plane of incidence: the mirror direction, 32 that come nearer to
+    it by halves from both sides, 32 at equal angles."""
+    ex, ey, so = charts.azimuth_of(wo)
+    half = math.floor(0.5 * (k - 1.0))
+    sign = 2.0 * (k - 2.0 * half) - 3.0
+    mirrored = math.atan2(so, wo[2])
+    near = mirrored + sign * 0.25 * math.pi * 0.5**half
+    even = sign * (half - 15.5) * math.pi / 33.0  # half is 16 to 31 here
+    angle = mirrored if k < 1.0 else (near if k < 33.0 else even)
+    s = math.sin(angle)
+    return -s * ex, -s * ey, math.cos(angle)
+
+
+def seen_half_vector(u: Any, fixed: Any, p: Any) -> float:
+    """The largest value of `albedo_half_vector` at a probed direction."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi = probed(wo, u[0])
+    area = charts.half_vector_area(wo, wi, fixed[3]) if wi[2] > 0.0 else 0.0
+    return F(wo, wi, p) * wi[2] * area if wi[2] > 0.0 else 0.0
+
+
+def seen_mirror(u: Any, fixed: Any, p: Any) -> float:
+    """The largest value of `albedo_mirror` at a probed direction."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi = probed(wo, u[0])
+    area = charts.mirror_area(wo, wi, fixed[3]) if wi[2] > 0.0 else 0.0
+    return F(wo, wi, p) * wi[2] * area if wi[2] > 0.0 else 0.0
+
+
+def seen_cosine(u: Any, fixed: Any, p: Any) -> float:
+    """The largest value at a probed direction of `albedo_cosine` made periodic."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi = probed(wo, u[0])
+    return 1.875 * math.pi * F(wo, wi, p) if wi[2] > 0.0 else 0.0

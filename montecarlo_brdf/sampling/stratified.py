@@ -1,0 +1,49 @@
+"""Jittered grids: one point in every cell of a grid of columns and rows."""
+from __future__ import annotations
+
+from montecarlo_brdf.bits import reverse32, u32, u64
+from montecarlo_brdf.sampling.independent import independent_axis
+from montecarlo_brdf.sampling.keys import Point, Shape, axis_key
+from montecarlo_brdf.sampling.sobol import owen_reversed
+
+
+def grid(size: int) -> Shape:
+    """(size, rows, bits of rows, 0, 0) of a grid of size = 2^m cells, as square as it can be."""
+    bits = (size.bit_length() - 1) // 2
+    return size, 1 << bits, bits, 0, 0
+
+
+def shuffled(key: int, index: int, axis: int, shape: Shape) -> int:
+    """A permutation of [0, size): coordinates with different orders are independent of each other.
+
+    Nested scrambling from the highest bit maps indices below 2^m to indices that differ in their
+    lowest m bits.
+    """
+    seed = u32(axis_key(key, u64(16) + axis) >> u64(32))
+    word = reverse32(u32(owen_reversed(u32(reverse32(u32(index))), seed)))
+    return u64(word) & u64(u64(shape[0]) - u64(1))
+
+
+def column(key: int, index: int, cell: int, axis: int, shape: Shape) -> float:
+    """First coordinate of a cell of the grid."""
+    place = u64(u64(cell) >> u64(shape[2]))
+    return (place + independent_axis(key, index, axis)) * (u64(shape[1]) / u64(shape[0]))
+
+
+def row(key: int, index: int, cell: int, axis: int, shape: Shape) -> float:
+    """Second coordinate of a cell of the grid."""
+    place = u64(u64(cell) & u64(u64(shape[1]) - u64(1)))
+    return (place + independent_axis(key, index, axis)) * (1.0 / u64(shape[1]))
+
+
+def stratified(key: int, index: int, shape: Shape) -> Point:
+    """Coordinates (0, 1) and (2, 3) on jittered grids, 4 in strata, in independent orders."""
+    i2 = shuffled(key, index, u64(2), shape)
+    i4 = shuffled(key, index, u64(4), shape)
+    return (
+        column(key, index, index, u64(0), shape),
+        row(key, index, index, u64(1), shape),
+        column(key, index, i2, u64(2), shape),
+        row(key, index, i2, u64(3), shape),
+        (i4 + independent_axis(key, index, u64(4))) * (1.0 / u64(shape[0])),
+    )
