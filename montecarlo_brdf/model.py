@@ -2,7 +2,7 @@
 
 A model file needs one function, `f(wo, wi, p)`, the BRDF in 1/sr without the cosine. Everything
 else has a default: `Params`, `sample`, `pdf`, `prepare`, `domain`, `choices`, `disclaims`,
-`verified`, `lossless`, `albedo`, `same_as`, `scales_with`, `isotropic`, `lobe`, `kinks`.
+`verified`, `lossless`, `limits`, `albedo`, `same_as`, `scales_with`, `isotropic`, `lobe`, `kinks`.
 The names and their meaning: docs/models.md.
 """
 from __future__ import annotations
@@ -48,6 +48,7 @@ class Model:
     isotropic: bool = True
     lobe: Any = None
     kinks: tuple[str, ...] = ()
+    limits: tuple[Any, ...] = ()  # (changed parameters, the model that it becomes)
     built_in: bool = False
     picks: Mapping[str, str] = field(default_factory=dict)
     labels: Mapping[str, str] = field(default_factory=dict)  # field -> name, where they differ
@@ -149,6 +150,7 @@ def build(name: str, namespace: Mapping[str, Any], picks: Mapping[str, str], bui
         lossless=bound.get("lossless", False),
         isotropic=bool(bound.get("isotropic", True)),
         kinks=tuple(bound.get("kinks", ())),
+        limits=tuple(bound.get("limits", ())),
         built_in=built_in,
         picks=picks,
         namespace=namespace,

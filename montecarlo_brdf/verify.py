@@ -8,7 +8,8 @@ from typing import Any
 
 from montecarlo_brdf.checks import furnace as furnace_check
 from montecarlo_brdf.checks import identities as identities_check
-from montecarlo_brdf.checks.claim import MeanClaim
+from montecarlo_brdf.checks.case import Case
+from montecarlo_brdf.checks.claim import Claim
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.integration import probe
 from montecarlo_brdf.integration.estimators import SAMPLERS, Plan, check_samples, check_theta, samplers_of
@@ -61,10 +62,11 @@ def furnace(
     for i, one in enumerate(sets):
         variant = model.of(one)
         probe.check(variant, one)
-        claims = furnace_check.claims(variant, one, angles, phi_o_deg, chosen, tolerance)
+        case = Case(variant, one, angles, phi_o_deg, chosen, tolerance, seed=seed)
         share = _share(progress, i, len(sets))
-        total = 2 * len(angles) * max(1, len(_first_tuple(one)))
-        findings = _decided(claims, plan, variant, total, share)
+        findings = _decided(
+            furnace_check.claims(case), plan, variant, 2 * len(angles) * len(case.sets), share
+        )
         curves = furnace_check.curves(variant, one, max(angles), phi_o_deg) if curve else []
         shown = shown_parameters(variant, one)
         results.append(Result(model.name, shown, "furnace", findings, curves))
@@ -98,11 +100,11 @@ def identities(
 
 
 def _decided(
-    claims: Iterable[MeanClaim], plan: Plan, model: Model | None, total: int, progress: Progress | None
+    claims: Iterable[Claim], plan: Plan, model: Model | None, total: int, progress: Progress | None
 ) -> list[Finding]:
     findings = []
     for claim in claims:
-        known = model.disclaims.get(claim.property) if model else None
+        known = model.disclaims.get(getattr(claim, "property", "")) if model else None
         findings.append(decide(claim, plan, known))
         if progress:
             progress(min(1.0, len(findings) / total))
@@ -150,10 +152,6 @@ def _check_tolerance(tolerance: float | None) -> None:
 def shown_parameters(model: Model, p: Any) -> dict[str, Any]:
     """Parameters and choices by name, as reports print them."""
     return {**{model.labels.get(k, k): v for k, v in p._asdict().items()}, **model.picks}
-
-
-def _first_tuple(p: Any) -> tuple[float, ...]:
-    return next((v for v in p if isinstance(v, tuple)), ())
 
 
 def _share(progress: Progress | None, i: int, n: int) -> Progress | None:

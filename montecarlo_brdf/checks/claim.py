@@ -23,11 +23,74 @@ class Reference(NamedTuple):
 
 
 class Measurement(NamedTuple):
-    """One estimator's answer; `unfit` says why it must not be believed."""
+    """One estimator's answer; `unfit` says why it must not be believed.
+
+    A deterministic estimator knows a bound on its error instead of a spread: `bound`.
+    """
 
     estimator: str
     estimate: Estimate
     unfit: str | None = None
+    bound: float | None = None
+
+    def half_width(self, level: float) -> float:
+        """Half the width of the interval that misses the truth with probability `level` at most."""
+        return self.estimate.half_width(level) if self.bound is None else self.bound
+
+
+class Exact(NamedTuple):
+    """The outcome of a deterministic evaluation: the worst value found, its error bound, where."""
+
+    value: float
+    error: float = 0.0
+    where: Mapping[str, Any] = {}
+    points: int = 1  # how many were looked at
+    note: str | None = None  # why nothing could be decided
+    hint: str | None = None
+
+
+class Fit(NamedTuple):
+    """How far counts are from what a density says: a distance with an upper bound, and a p-value."""
+
+    distance: float
+    upper: float
+    p_value: float
+    samples: int
+    note: str | None = None  # why the density could not be integrated
+
+
+@dataclass(frozen=True)
+class ExactClaim:
+    """A number that a deterministic evaluation, or the worst of a search, keeps within bounds."""
+
+    quantity: str
+    where: Mapping[str, Any]
+    bound: str  # "at most", "at least" or "equal"
+    expected: Reference
+    tolerance: float  # absolute
+    evaluate: Callable[[], Exact]
+    property: str = "reference"
+    reproduce: str = ""
+
+
+@dataclass(frozen=True)
+class FitClaim:
+    """Samples follow a density: the distance of their distributions is below the tolerance."""
+
+    quantity: str
+    where: Mapping[str, Any]
+    tolerance: float
+    measure: Callable[[Plan, float], Fit]  # plan and level
+    property: str = "pdf"
+    reproduce: str = ""
+
+
+@dataclass(frozen=True)
+class Skip:
+    """A question that does not apply, with the reason."""
+
+    quantity: str
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -47,3 +110,6 @@ class MeanClaim:
     property: str = "reference"
     reproduce: str = ""
     unit: Mapping[str, float] = field(default_factory=dict)  # what the hint compares the value with
+
+
+Claim = MeanClaim | ExactClaim | FitClaim | Skip

@@ -27,9 +27,17 @@ def hint(claim: MeanClaim, value: float) -> str | None:
     if claim.expected is not None and claim.bound == "equal" and claim.expected.value:
         units = {"expected": claim.expected.value, **units}
     for name, unit in units.items():
-        for factor, cause in FACTORS.items():
-            if abs(value / unit / factor - 1.0) < CLOSE:
-                return f"{claim.quantity.split()[0]} / {name} = {_symbol(factor)}: {cause}"
+        cause = factor_named(value / unit)
+        if cause:
+            return f"{claim.quantity.split()[0]} / {name} = {cause}"
+    return None
+
+
+def factor_named(ratio: float) -> str | None:
+    """'pi: the factor 1/pi is missing' for a ratio that is close to a telling number."""
+    for factor, cause in FACTORS.items():
+        if abs(ratio / factor - 1.0) < CLOSE:
+            return f"{_symbol(factor)}: {cause}"
     return None
 
 

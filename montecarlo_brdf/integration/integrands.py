@@ -134,3 +134,44 @@ def hemisphere_cosine(u: Any, fixed: Any, p: Any) -> float:
     """g / pdf with w cosine-weighted: E = the integral of g over the hemisphere."""
     w = random_hemisphere_cosine(u[0], u[1])
     return F(w, p) * PI / w[2]
+
+
+def rejected_own(u: Any, fixed: Any, p: Any) -> float:
+    """1 where the model's sampler rejects: E = the rejected fraction."""
+    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[2]), p)
+    if wi[2] <= 0.0:
+        return 1.0
+    return 0.0
+
+
+SKY: Any = None
+
+
+def radiance_uniform(u: Any, fixed: Any, p: Any) -> float:
+    """f L cos / pdf with wi uniform: E = reflected radiance under the light SKY."""
+    wi = random_hemisphere(u[0], u[1])
+    return F((fixed[0], fixed[1], fixed[2]), wi, p) * wi[2] * SKY(wi) * TWO_PI
+
+
+def radiance_cosine(u: Any, fixed: Any, p: Any) -> float:
+    """f L cos / pdf with wi cosine-weighted."""
+    wi = random_hemisphere_cosine(u[0], u[1])
+    return F((fixed[0], fixed[1], fixed[2]), wi, p) * SKY(wi) * PI
+
+
+def radiance_own(u: Any, fixed: Any, p: Any) -> float:
+    """f L cos / pdf with wi from the model's sampler."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
+    if wi[2] <= 0.0:
+        return 0.0
+    wi = (wi[0], wi[1], wi[2])
+    return F(wo, wi, p) * wi[2] * SKY(wi) / PDF(wo, wi, p)
+
+
+def radiance_weighted(u: Any, fixed: Any, p: Any) -> float:
+    """L times the weight that the model's sampler returns."""
+    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[2]), p)
+    if wi[2] <= 0.0:
+        return 0.0
+    return wi[3] * SKY((wi[0], wi[1], wi[2]))

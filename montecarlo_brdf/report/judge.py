@@ -7,19 +7,26 @@ point set with more replicates refutes it again.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import NamedTuple
 
 from montecarlo_brdf import student
-from montecarlo_brdf.checks.claim import MeanClaim, Measurement, Reference
+from montecarlo_brdf.checks.claim import (
+    Claim,
+    ExactClaim,
+    FitClaim,
+    MeanClaim,
+    Measurement,
+    Reference,
+    Skip,
+)
 from montecarlo_brdf.checks.hints import hint
 from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.report.exact import exact_finding
 from montecarlo_brdf.report.findings import Finding
-from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.report.fit import fit_finding
+from montecarlo_brdf.report.looks import FRESH, GROWTH, beyond, looks
 
 LEVEL = 1e-9
-FIRST_LOOK = 1 << 14
-GROWTH = 4
 CONFIRMING_REPLICATES = 64
 
 
@@ -31,8 +38,19 @@ class Opinion(NamedTuple):
     verdict: str
 
 
-def decide(claim: MeanClaim, plan: Plan, known: str | None = None, level: float = LEVEL) -> Finding:
+def decide(claim: Claim, plan: Plan, known: str | None = None, level: float = LEVEL) -> Finding:
     """The finding for a claim; `known` is the reason if the model disclaims the property."""
+    if isinstance(claim, Skip):
+        return Finding(claim.quantity, {}, "skipped", note=claim.reason)
+    if isinstance(claim, ExactClaim):
+        return exact_finding(claim, known)
+    if isinstance(claim, FitClaim):
+        return fit_finding(claim, plan, known, level)
+    return mean_finding(claim, plan, known, level)
+
+
+def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
+    """Looks at growing sample sizes until every fit estimator has decided."""
     opinions: list[Opinion] = []
     spent = level
     for look, samples in enumerate(looks(plan.samples), start=1):
@@ -47,24 +65,14 @@ def decide(claim: MeanClaim, plan: Plan, known: str | None = None, level: float 
     return _finding(claim, opinions, spent, level, known)
 
 
-def looks(most: int) -> list[int]:
-    """Sample sizes of the looks, the last one being all that is allowed."""
-    sizes = []
-    size = min(FIRST_LOOK, most)
-    while size < most:
-        sizes.append(size)
-        size *= GROWTH
-    return [*sizes, most]
-
-
 def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> list[Opinion]:
     """Every estimator's opinion; the level is shared by those that are fit."""
     fit = [m for m in measurements if not m.unfit]
     each = level / max(1, len(fit))
-    best = min(fit, key=lambda m: m.estimate.half_width(each), default=None)
+    best = min(fit, key=lambda m: m.half_width(each), default=None)
     opinions = []
     for m in measurements:
-        half = m.estimate.half_width(each)
+        half = m.half_width(each)
         verdict = "unfit" if m.unfit else _verdict(claim, m, best, half, each)
         opinions.append(Opinion(m, half, verdict))
     if claim.bound == "at most" and best is not None:
@@ -86,19 +94,15 @@ def _verdict(
     if expected is None:
         if best is None or m is best:
             return "pass"
-        expected = Reference(best.estimate.mean, best.estimate.half_width(level), "", "")
+        expected = Reference(best.estimate.mean, best.half_width(level), "", "")
     slack = half + expected.error
     over = value - expected.value
     if claim.bound == "at most":
         over = max(over, -math.inf)
-        return "pass" if over + slack <= claim.tolerance else _beyond(over, slack, claim.tolerance)
+        return "pass" if over + slack <= claim.tolerance else beyond(over, slack, claim.tolerance)
     if abs(over) + slack <= claim.tolerance:
         return "pass"
-    return _beyond(abs(over), slack, claim.tolerance)
-
-
-def _beyond(deviation: float, slack: float, tolerance: float) -> str:
-    return "fail" if deviation - slack > tolerance else "inconclusive"
+    return beyond(abs(over), slack, claim.tolerance)
 
 
 def confirmed(claim: MeanClaim, plan: Plan, level: float) -> bool:
@@ -107,7 +111,7 @@ def confirmed(claim: MeanClaim, plan: Plan, level: float) -> bool:
         points="independent" if plan.points != "independent" else "sobol",
         replicates=CONFIRMING_REPLICATES,
         samples=GROWTH * plan.samples,
-        seed=plan.seed + (1 << 32),
+        seed=plan.seed + FRESH,
     )
     return any(o.verdict == "fail" for o in judged(claim, claim.measure(fresh), level))
 
@@ -130,7 +134,7 @@ def _finding(
         stderr=e.stderr,
         expected=expected.value if expected else None,
         tolerance=claim.tolerance,
-        resolves=resolves(claim, e, spent / max(1, len(opinions))),
+        resolves=resolves(claim, telling.measurement, spent / max(1, len(opinions))),
         level=level,
         samples=e.samples,
         estimator=telling.measurement.estimator,
@@ -158,8 +162,11 @@ def _telling(opinions: list[Opinion]) -> Opinion:
     return min(opinions, key=lambda o: (order[o.verdict], o.half_width))
 
 
-def resolves(claim: MeanClaim, e: Estimate, level: float) -> float:
+def resolves(claim: MeanClaim, m: Measurement, level: float) -> float:
     """The deviation that a FAIL at this look would have caught with probability 95 %."""
+    e = m.estimate
+    if m.bound is not None:
+        return claim.tolerance + m.bound
     if e.dof < 1:
         return math.inf
     tail = level if claim.bound == "at most" else level / 2.0
@@ -193,5 +200,3 @@ def _note(verdict: str, opinions: list[Opinion]) -> str | None:
         return f"undecided at {fit[0].measurement.estimate.samples} samples: allow more with --samples"
     return reasons[0] if reasons else None
 
-
-Decide = Callable[[MeanClaim, Plan], Finding]

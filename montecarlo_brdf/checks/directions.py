@@ -1,0 +1,90 @@
+"""Pairs of directions where BRDFs go wrong: edges first, then everywhere, then along the lobe."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.checks.case import Case, pointwise
+
+Array = Any
+LAST = math.nextafter(0.5 * math.pi, 0.0)  # 90 degrees less an ulp: cos = 2.8e-16
+#: polar angles in radians: normal, next to it, ordinary, grazing, the last double before 90 degrees
+EDGES = (
+    0.0,
+    1e-8,
+    1e-3,
+    *(math.radians(d) for d in (20.0, 45.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.999)),
+    0.5 * math.pi - 1e-7,
+    LAST,
+)
+AZIMUTHS = (0.0, 1e-7, 0.5, 0.5 * math.pi, 2.5, math.pi - 1e-7, math.pi, 4.0)
+RANDOM = 20_000
+LOBE = 20_000
+HIGHEST_COSINE = 1e-6  # ordinary random directions keep clear of the horizon by this
+
+
+def vectors(theta: Array, phi: Array) -> Array:
+    """(n, 3) unit vectors; near 90 degrees the cosine keeps its relative accuracy."""
+    theta, phi = np.broadcast_arrays(np.asarray(theta, dtype=float), np.asarray(phi, dtype=float))
+    s = np.sin(theta)
+    return np.stack([s * np.cos(phi), s * np.sin(phi), np.cos(theta)], axis=-1).reshape(-1, 3)
+
+
+def edge_pairs() -> tuple[Array, Array]:
+    """Every edge angle against every other at every azimuth; wi = wo, wi = mirror, wi . wo = 0."""
+    to, ti, phi = (g.ravel() for g in np.meshgrid(EDGES, EDGES, AZIMUTHS, indexing="ij"))
+    wo, wi = vectors(to, 0.0), vectors(ti, phi)
+    each = vectors(np.array(EDGES), 0.3)
+    mirror = each * np.array([-1.0, -1.0, 1.0])
+    across = vectors(0.5 * np.pi - np.array(EDGES), 0.3 + np.pi)
+    tilted = each[across[:, 2] > 0.0], across[across[:, 2] > 0.0]
+    return (
+        np.concatenate([wo, each, each, tilted[0]]),
+        np.concatenate([wi, each, mirror, tilted[1]]),
+    )
+
+
+def random_pairs(rng: Any, n: int = RANDOM) -> tuple[Array, Array]:
+    """Uniform directions, half of them with cosines spread evenly over their logarithm."""
+
+    def some() -> Array:
+        u = rng.random((n, 3))
+        cosine = np.where(u[:, 2] < 0.5, u[:, 0], HIGHEST_COSINE ** u[:, 0])
+        cosine = np.maximum(cosine, HIGHEST_COSINE)
+        s = np.sqrt((1.0 - cosine) * (1.0 + cosine))
+        phi = 2.0 * np.pi * u[:, 1]
+        return np.stack([s * np.cos(phi), s * np.sin(phi), cosine], axis=-1)
+
+    return some(), some()
+
+
+def lobe_pairs(case: Case, p: Any, rng: Any, n: int = LOBE) -> tuple[Array, Array]:
+    """Random wo with wi drawn by the model's own sampler: pairs that see a lobe of any width."""
+    if case.model.sample is None:
+        wo, _ = random_pairs(rng, n)
+        wi = wo * np.array([-1.0, -1.0, 1.0]) + 0.1 * rng.normal(size=(n, 3)) * rng.random((n, 1)) ** 4
+        wi /= np.sqrt(np.sum(wi * wi, axis=1))[:, None]
+    else:
+        wo, _ = random_pairs(rng, n)
+        wi, _ = pointwise(case.model, p).sample(wo, rng.random((n, 3)))
+    above = wi[:, 2] > HIGHEST_COSINE
+    return wo[above], wi[above]
+
+
+def all_pairs(case: Case, p: Any, rng: Any) -> tuple[Array, Array]:
+    """Edges, random pairs and pairs along the lobe."""
+    kinds = [edge_pairs(), random_pairs(rng), lobe_pairs(case, p, rng)]
+    return np.concatenate([k[0] for k in kinds]), np.concatenate([k[1] for k in kinds])
+
+
+def place(wo: Array, wi: Array) -> dict[str, float]:
+    """A pair as angles in degrees, as findings give it."""
+
+    def angles(w: Array) -> tuple[float, float]:
+        theta = math.degrees(math.atan2(math.hypot(w[0], w[1]), w[2]))
+        return round(theta, 9), round(math.degrees(math.atan2(w[1], w[0])), 9)
+
+    (to, po), (ti, pi) = angles(wo), angles(wi)
+    return {"theta_o_deg": to, "phi_o_deg": po, "theta_i_deg": ti, "phi_i_deg": pi}

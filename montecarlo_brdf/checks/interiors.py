@@ -1,0 +1,52 @@
+"""Parameter sets to look at: the one asked about, and others from the interior of the ranges."""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from montecarlo_brdf.checks.case import Case, search_range
+from montecarlo_brdf.sampling.points import sobol
+
+INTERIORS = 8
+WIDE = 50.0  # a range whose ends differ by more than this factor is searched by its logarithm
+
+
+def between(low: float, high: float, t: float) -> float:
+    """A value at t in [0, 1] of a range, by its logarithm where the range is wide."""
+    if low > 0.0 and high > WIDE * low:
+        return low * (high / low) ** t
+    return low + (high - low) * t
+
+
+def at(case: Case, t: dict[str, float]) -> Any:
+    """The case's parameter set with the free parameters at positions t in [0, 1]."""
+    ranges = {n: search_range(case.model, n) for n in case.free}
+    changed = {n: between(*ends, t[n]) for n, ends in ranges.items() if ends}
+    return case.one._replace(**changed)
+
+
+def position(case: Case, p: Any) -> dict[str, float]:
+    """Where a parameter set lies in the ranges: the inverse of `at`."""
+    found = {}
+    for n in case.free:
+        low, high = search_range(case.model, n) or (0.0, 1.0)
+        value = min(max(getattr(p, n), low), high)
+        wide = low > 0.0 and high > WIDE * low
+        found[n] = math.log(value / low) / math.log(high / low) if wide else (value - low) / (high - low)
+    return found
+
+
+def sets(case: Case, count: int = INTERIORS) -> Iterator[Any]:
+    """The channels asked about, then points of the interior (a Sobol set, the same every time)."""
+    yield from case.sets
+    if not case.free:
+        return
+    for k in range(count):
+        u = sobol(case.seed + 0x5EED, k)
+        yield at(case, {n: u[i % 5] for i, n in enumerate(case.free)})
+
+
+def changed(case: Case, p: Any) -> dict[str, float]:
+    """The free parameters of a set by name, for a finding's place."""
+    return {case.model.labels.get(n, n): float(f"{getattr(p, n):.12g}") for n in case.free}

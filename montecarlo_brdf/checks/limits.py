@@ -1,0 +1,75 @@
+"""Limits: does the model become what it must where a parameter reaches an end?
+
+A lossless parameter set reflects exactly 1 at every angle; a declared limit equals another model
+(roughness 0 is Lambert, equal widths are the isotropic lobe). It cannot see: limits nobody declared.
+"""
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
+
+from montecarlo_brdf.checks import equality, furnace
+from montecarlo_brdf.checks.case import Case
+from montecarlo_brdf.checks.claim import (
+    AGREEMENT_TOLERANCE,
+    Claim,
+    ExactClaim,
+    MeanClaim,
+    Reference,
+    Skip,
+)
+from montecarlo_brdf.loading import load
+
+NAME = "limits"
+QUESTION = "does it become what it must?"
+PROPERTY = "reference"
+
+
+def claims(case: Case) -> Iterator[Claim]:
+    """Lossless sets reflect 1; declared limits equal their model."""
+    declared = list(case.model.limits)
+    lossless = _lossless(case)
+    if not declared and not lossless:
+        yield Skip("limits", "the model declares no limits and no lossless parameter set")
+    for p in lossless:
+        yield from _lossless_claims(case, p)
+    for changes, spec in declared:
+        yield _limit(case, dict(changes), spec)
+
+
+def _lossless(case: Case) -> list[object]:
+    """The parameter sets that must reflect exactly 1."""
+    if case.model.lossless is True:
+        return list(case.sets)
+    return list(case.model.lossless or ())
+
+
+def _lossless_claims(case: Case, p: object) -> Iterator[Claim]:
+    for theta in case.theta_o_deg:
+        measure = functools.cache(functools.partial(furnace.measure, case._replace(p=p), theta))
+        yield MeanClaim(
+            "A of a lossless surface",
+            case.where(theta_o_deg=theta),
+            "equal",
+            Reference(1.0, 0.0, "declared", "lossless"),
+            case.tolerated(AGREEMENT_TOLERANCE),
+            functools.partial(furnace.of_channel, measure, 0),
+            property=PROPERTY,
+        )
+
+
+def _limit(case: Case, changes: dict[str, float], spec: str) -> Claim:
+    other = load(spec)
+    p = case.one._replace(**changes)
+    said = ", ".join(f"{k} = {v:g}" for k, v in changes.items())
+    return ExactClaim(
+        f"|f - f of {spec}|/f at {said}",
+        {},
+        "at most",
+        Reference(0.0, 0.0, "declared", f"becomes {spec}"),
+        case.tolerated(equality.TOLERANCE),
+        lambda: equality.difference(
+            case._replace(free=()), p, other, equality.shared(other, p), case.random(NAME, spec)
+        ),
+        property=PROPERTY,
+    )

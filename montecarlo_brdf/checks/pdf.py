@@ -1,0 +1,189 @@
+"""The density of the sampler: does it integrate to 1 less what is rejected, and is it its Jacobian?
+
+int pdf by quadrature in coordinates that follow the lobe, plus the fraction of draws that are
+rejected, is 1; pdf |dw/du1 x dw/du2| = 1 by finite differences where one direction belongs to one
+pair of numbers; a returned weight is f cos/pdf; drawn directions are finite unit vectors with pdf > 0.
+It cannot see: a density that is wrong in shape where the sampler chooses among lobes (`sampling`
+can).
+"""
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.checks.claim import (
+    Claim,
+    Exact,
+    ExactClaim,
+    MeanClaim,
+    Measurement,
+    Reference,
+    Skip,
+)
+from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
+from montecarlo_brdf.checks.truth import lobe_scale
+from montecarlo_brdf.integration.estimators import Plan, estimates
+
+NAME = "pdf"
+QUESTION = "does the pdf integrate to 1, is it the sampler's Jacobian, is the weight f cos/pdf?"
+PROPERTY = "pdf"
+STEP = 1e-5
+MARGIN = 2.0**-10  # keeps finite differences away from the poles of u, whose error is (h/u)^2/8
+POINTS = 4096
+JACOBIAN_TOLERANCE = 3e-3
+#: of the mass; the edge of the rejected region limits how fast the rejected fraction converges
+MASS_TOLERANCE = 5e-4
+#: the share of points that may lie on seams of the map, where differences do not exist
+SEAMS = 0.005
+UNIT_TOLERANCE = 1e-6
+
+
+def claims(case: Case) -> Iterator[Claim]:
+    """All claims about sample and pdf."""
+    if case.model.sample is None:
+        yield Skip("pdf", f"model {case.model.name} has no sampler")
+        return
+    for theta in case.theta_o_deg:
+        yield _claim(case, theta, "drawn directions at fault", 0.0, _faults)
+        if case.model.pdf is None:
+            continue
+        yield _normalisation(case, theta)
+        if chooses(case, theta):
+            yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
+        else:
+            yield _claim(case, theta, "|pdf Jacobian - 1|", JACOBIAN_TOLERANCE, _jacobian)
+        if np.isfinite(_drawn(case, theta)[2]).any():
+            yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", UNIT_TOLERANCE, _weight)
+
+
+def _claim(case: Case, theta: float, quantity: str, tolerance: float, evaluate: Any) -> ExactClaim:
+    return ExactClaim(
+        quantity,
+        case.where(theta_o_deg=theta),
+        "at most",
+        Reference(0.0, 0.0, "law", "sampler and density belong together"),
+        tolerance,
+        functools.partial(evaluate, case, theta),
+        property=PROPERTY,
+    )
+
+
+def _drawn(case: Case, theta: float, n: int = POINTS) -> tuple[Any, Any, Any]:
+    """(u, directions, weights) of n draws."""
+    u = case.random(NAME, theta).random((n, 3)) * (1.0 - 2.0 * MARGIN) + MARGIN
+    return u, *pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
+
+
+def chooses(case: Case, theta: float) -> bool:
+    """Whether u[2] changes the drawn direction."""
+    u, w, _ = _drawn(case, theta, 256)
+    u[:, 2] = 1.0 - u[:, 2]
+    again, _ = pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
+    return not np.allclose(w, again, rtol=0.0, atol=1e-12, equal_nan=True)
+
+
+def _faults(case: Case, theta: float) -> Exact:
+    """How many draws are not finite, not of unit length, or have no density."""
+    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
+    rng = case.random(NAME, "edges", theta)
+    u = np.concatenate([_edges(), rng.random((POINTS, 3))])
+    w, _ = functions.sample(wo, u)
+    kinds = {"not finite": ~np.isfinite(w).all(axis=1)}
+    length = np.sqrt(np.sum(np.where(np.isfinite(w), w, 0.0) ** 2, axis=1))
+    above = ~kinds["not finite"] & (w[:, 2] > 0.0)
+    kinds["not of unit length"] = above & (np.abs(length - 1.0) > UNIT_TOLERANCE)
+    if case.model.pdf is not None:
+        density = functions.pdf(wo, np.where(above[:, None], w, wo))
+        kinds["with a pdf that is not positive and finite"] = above & ~(
+            np.isfinite(density) & (density > 0.0)
+        )
+    counts = {name: int(bad.sum()) for name, bad in kinds.items()}
+    hint = ", ".join(f"{n} draws {name}" for name, n in counts.items() if n)
+    first = next((int(np.argmax(bad)) for bad in kinds.values() if bad.any()), 0)
+    hint = f"{hint} (first at u = {tuple(float(v) for v in u[first])})" if hint else None
+    return Exact(float(sum(counts.values())), points=len(u), hint=hint)
+
+
+def _edges() -> Any:
+    """Numbers next to 0 and 1."""
+    ends = (0.0, 5e-324, 2.0**-53, 0.5, 1.0 - 2.0**-53)
+    return np.array([(a, b, 0.5) for a in ends for b in ends])
+
+
+def _normalisation(case: Case, theta: float) -> MeanClaim:
+    return MeanClaim(
+        "int pdf + rejected",
+        case.where(theta_o_deg=theta),
+        "equal",
+        Reference(1.0, 0.0, "law", "a density integrates to 1"),
+        case.tolerated(MASS_TOLERANCE),
+        functools.partial(_mass, case, theta),
+        property=PROPERTY,
+        unit={"expected": 1.0},
+    )
+
+
+@functools.lru_cache(maxsize=128)
+def density_integral(case_model: Any, one: Any, wo: Any) -> Any:
+    """int pdf over the hemisphere, by quadrature."""
+    direction = np.array(wo)
+    coordinates = Coordinates(direction, lobe_scale(case_model, one, direction))
+    functions = pointwise(case_model, one)
+    return integrate(lambda wi: functions.pdf(direction, wi), coordinates)
+
+
+def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
+    """int pdf by quadrature plus the rejected fraction by draws."""
+    wo = case.wo(theta)
+    integral = density_integral(case.model, case.one, wo)
+    rejected = estimates(case.model, case.one, wo, ["rejected_own"], plan, (NAME,))[0][0]
+    unfit = None
+    if not integral.error <= 0.25 * case.tolerated(MASS_TOLERANCE) + 1e-9:
+        unfit = f"the quadrature of pdf resolves only {integral.error:.1e}"
+    whole = rejected._replace(
+        mean=rejected.mean + integral.value, stderr=max(rejected.stderr, integral.error)
+    )
+    return [Measurement("quadrature", whole, unfit)]
+
+
+def _jacobian(case: Case, theta: float) -> Exact:
+    """The largest |pdf |dw/du1 x dw/du2| - 1| away from seams, by central differences."""
+    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
+    u, w, _ = _drawn(case, theta)
+    sides = []
+    for axis in (0, 1):
+        step = np.zeros(3)
+        step[axis] = STEP
+        ahead, behind = functions.sample(wo, u + step)[0], functions.sample(wo, u - step)[0]
+        sides.append(((ahead - behind) / (2.0 * STEP), np.minimum(ahead[:, 2], behind[:, 2])))
+    area = np.sqrt(np.sum(np.cross(sides[0][0], sides[1][0]) ** 2, axis=1))
+    above = (w[:, 2] > 1e-3) & (np.minimum(sides[0][1], sides[1][1]) > 0.0)
+    if above.sum() < 100:
+        return Exact(0.0, points=0, note="hardly any draw lies above the horizon")
+    off = np.abs(functions.pdf(wo, w[above]) * area[above] - 1.0)
+    ratio = float(np.median(functions.pdf(wo, w[above]) * area[above]))
+    value = float(np.quantile(off, 1.0 - SEAMS))
+    return Exact(value, points=int(above.sum()), hint=_factor(ratio))
+
+
+def _factor(ratio: float) -> str:
+    from montecarlo_brdf.checks.hints import factor_named
+
+    cause = factor_named(ratio)
+    return f"pdf times the sampler's Jacobian is {ratio:.5g} in the middle" + (f" = {cause}" if cause else "")
+
+
+def _weight(case: Case, theta: float) -> Exact:
+    """The largest relative difference of the returned weight from f cos/pdf."""
+    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
+    _, w, weight = _drawn(case, theta)
+    above = (w[:, 2] > 0.0) & np.isfinite(weight)
+    expected = functions.f(wo, w[above]) * w[above][:, 2] / functions.pdf(wo, w[above])
+    ratio = weight[above] / np.where(expected == 0.0, 1e-300, expected)
+    k = int(np.argmax(np.abs(ratio - 1.0)))
+    hint = f"weight/(f cos/pdf) = {float(np.median(ratio)):.6g} in the middle"
+    return Exact(float(abs(ratio[k] - 1.0)), points=int(above.sum()), hint=hint)

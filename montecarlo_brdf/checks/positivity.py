@@ -1,0 +1,91 @@
+"""Positivity: is f finite and at least 0 everywhere?
+
+Over edge pairs (theta up to 90 degrees less an ulp, wi = wo, wi = mirror, wi . wo = 0), random
+pairs, pairs along the lobe; for the parameters asked about and some of the interior. It cannot see:
+a wrong value that is finite and positive.
+"""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.checks import directions, interiors
+from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
+
+NAME = "positivity"
+QUESTION = "finite and >= 0 everywhere?"
+PROPERTY = "positivity"
+#: absolute, in 1/sr, below zero; relative to the largest value of |f| seen
+ROUNDING = 1e-12
+
+
+def claims(case: Case) -> Iterator[Claim]:
+    """No value that is not finite, and no negative one."""
+    yield ExactClaim(
+        "values of f not finite",
+        {},
+        "at most",
+        Reference(0.0, 0.0, "law", "a BRDF is a density of reflected light"),
+        0.0,
+        lambda: _count_not_finite(case),
+        property=PROPERTY,
+    )
+    yield ExactClaim(
+        "smallest f / largest f",
+        {},
+        "at least",
+        Reference(0.0, 0.0, "law", "a BRDF is a density of reflected light"),
+        case.tolerated(ROUNDING),
+        lambda: _smallest(case),
+        property=PROPERTY,
+    )
+
+
+def _values(case: Case) -> Iterator[tuple[Any, Any, Any, Any]]:
+    for k, p in enumerate(interiors.sets(case)):
+        wo, wi = directions.all_pairs(case, p, case.random(NAME, k))
+        yield p, wo, wi, pointwise(case.model, p).f(wo, wi)
+
+
+def _count_not_finite(case: Case) -> Exact:
+    count, points, where, hint = 0, 0, {}, None
+    for p, wo, wi, f in _values(case):
+        bad = ~np.isfinite(f)
+        if bad.any() and not count:
+            k = int(np.argmax(bad))
+            where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+            hint = f"f is {f[k]} at {_name(wo[k], wi[k])}: look for 0/0, 1/0 or the root of a negative"
+        count += int(bad.sum())
+        points += len(f)
+    return Exact(float(count), 0.0, where, points, hint=hint)
+
+
+def _smallest(case: Case) -> Exact:
+    found = Exact(0.0, points=0)
+    for p, wo, wi, f in _values(case):
+        f = np.where(np.isfinite(f), f, 0.0)
+        k = int(np.argmin(f))
+        value = float(f[k] / max(float(np.abs(f).max(initial=0.0)), 1e-300))
+        points = found.points + len(f)
+        if value < found.value:
+            where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+            found = Exact(value, 0.0, where, points, hint=f"f = {f[k]:.6g} at {_name(wo[k], wi[k])}")
+        found = found._replace(points=points)
+    return found
+
+
+def _name(wo: Any, wi: Any) -> str:
+    """The kind of place, in words where it has a name."""
+    named = []
+    if min(wo[2], wi[2]) < 1e-4:
+        named.append("a grazing direction")
+    if max(wo[2], wi[2]) > 1.0 - 1e-12:
+        named.append("normal incidence")
+    if np.abs(wo - wi).max() < 1e-12:
+        named.append("wi = wo")
+    if np.abs(wo * np.array([-1.0, -1.0, 1.0]) - wi).max() < 1e-12:
+        named.append("the mirror direction")
+    return " and ".join(named) or "an ordinary pair of directions"

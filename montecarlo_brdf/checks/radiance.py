@@ -1,0 +1,91 @@
+"""Does it hold under light that is not constant?
+
+Reflected radiance under a cosine sky and under a tilted lobe of light, by every sampler that is fit,
+against a quadrature of the same f (for a Lambert surface, against irradiance in closed form). It
+sees what a constant furnace cancels: a wrong sampler with a wrong pdf that make the image look right.
+It cannot see: an f that is wrong itself.
+"""
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.checks import fitness
+from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.checks.claim import AGREEMENT_TOLERANCE, Claim, MeanClaim, Measurement, Reference, Skip
+from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
+from montecarlo_brdf.checks.truth import lobe_scale
+from montecarlo_brdf.integration import integrands
+from montecarlo_brdf.integration.estimators import Plan, Subject, evaluate, integrand_name, samplers_of
+
+NAME = "radiance"
+QUESTION = "does it hold under light that is not constant?"
+PROPERTY = "pdf"
+TILT = (math.sin(0.7), 0.0, math.cos(0.7))
+TOLERANCE = 10.0 * AGREEMENT_TOLERANCE
+
+
+def cosine_sky(w: Any) -> float:
+    """L = cos(theta)."""
+    return w[2]
+
+
+def tilted_sky(w: Any) -> float:
+    """L = (1 + w . u)^2/4, with u tilted by 0.7 rad towards azimuth 0."""
+    c = 1.0 + w[0] * 0.644217687237691 + w[2] * 0.7648421872844885
+    return 0.25 * c * c
+
+
+SKIES: dict[str, Callable[[Any], float]] = {"cos": cosine_sky, "tilted": tilted_sky}
+
+
+def claims(case: Case) -> Iterator[Claim]:
+    """One per angle and sky."""
+    for theta in case.theta_o_deg:
+        for name, sky in SKIES.items():
+            expected = _expected(case, theta, sky)
+            if expected is None:
+                yield Skip(f"L_o, {name} sky", "the quadrature does not resolve f: nothing to compare with")
+                continue
+            yield MeanClaim(
+                f"L_o, {name} sky",
+                case.where(theta_o_deg=theta),
+                "equal",
+                expected,
+                case.tolerated(TOLERANCE) * abs(expected.value),
+                functools.partial(_measure, case, theta, name),
+                property=PROPERTY,
+            )
+
+
+def _expected(case: Case, theta: float, sky: Any) -> Reference | None:
+    wo, functions = np.array(case.wo(theta)), pointwise(case.model, case.one)
+
+    def integrand(wi: Any) -> Any:
+        return functions.f(wo, wi) * wi[:, 2] * sky(wi.T)
+
+    found = integrate(integrand, Coordinates(wo, lobe_scale(case.model, case.one, wo)))
+    if not found.error <= 0.25 * TOLERANCE * abs(found.value):
+        return None
+    return Reference(found.value, found.error, "quadrature of the same f", "lobe coordinates")
+
+
+def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measurement]:
+    model, wo = case.model, case.wo(theta)
+    chosen = samplers_of(model)
+    functions = [getattr(integrands, integrand_name(model, "radiance", s)) for s in chosen]
+    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf, "SKY": SKIES[name]}
+    subject = Subject(
+        (model.name, *model.picks.values(), *map(repr, case.one), name),
+        {k: v for k, v in bound.items() if v is not None},
+        [model.prepared(case.one)],
+    )
+    row = evaluate(subject, wo, functions, plan, (NAME,))[0]
+    sight = fitness.look(model, model.prepared(case.one), wo)
+    return [
+        Measurement(s, e, fitness.reason_unfit(s, e, sight, None)) for s, e in zip(chosen, row, strict=True)
+    ]

@@ -1,0 +1,71 @@
+"""Reciprocity: f(wo, wi) = f(wi, wo)? (Helmholtz; without it bidirectional methods are wrong.)
+
+The worst relative difference over edge pairs, random pairs and pairs along the lobe, for the
+parameters asked about and some of the interior. It cannot see: a violation between the pairs looked
+at.
+"""
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.checks import directions, interiors
+from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
+
+NAME = "reciprocity"
+QUESTION = "f(wo, wi) = f(wi, wo)?"
+PROPERTY = "reciprocity"
+#: relative; rounding of directions moves a lobe of width alpha by eps/alpha, far below this
+TOLERANCE = 1e-6
+#: values below this share of the largest are rounding
+NEGLIGIBLE = 1e-25
+
+
+def claims(case: Case) -> Iterator[Claim]:
+    """One claim: no pair violates it."""
+    yield ExactClaim(
+        "|f - f'|/max(f, f')",
+        {},
+        "at most",
+        Reference(0.0, 0.0, "law", "Helmholtz reciprocity"),
+        case.tolerated(TOLERANCE),
+        lambda: worst(case),
+        property=PROPERTY,
+    )
+
+
+def worst(case: Case) -> Exact:
+    """The worst pair over all parameter sets."""
+    found = Exact(0.0, points=0)
+    for k, p in enumerate(interiors.sets(case)):
+        one = _worst_of(case, p, case.random(NAME, k))
+        points = found.points + one.points
+        found = (one if one.value > found.value or found.points == 0 else found)._replace(points=points)
+    return found
+
+
+def _worst_of(case: Case, p: Any, rng: Any) -> Exact:
+    wo, wi = directions.all_pairs(case, p, rng)
+    there, back = pointwise(case.model, p).f(wo, wi), pointwise(case.model, p).f(wi, wo)
+    usable = np.isfinite(there) & np.isfinite(back)  # what is not finite is positivity's business
+    there, back = np.where(usable, there, 0.0), np.where(usable, back, 0.0)
+    high = np.maximum(np.abs(there), np.abs(back))
+    floor = NEGLIGIBLE * float(high.max(initial=0.0))
+    relative = np.abs(there - back) / np.maximum(high, floor if floor > 0.0 else 1.0)
+    k = int(np.argmax(relative))
+    where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+    hint = _hint(there[k], back[k], wo[k], wi[k])
+    return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
+
+
+def _hint(there: float, back: float, wo: Any, wi: Any) -> str:
+    """What the ratio of the two values says."""
+    said = f"f = {there:.6g} one way and {back:.6g} the other"
+    if there > 0.0 and back > 0.0:
+        for name, ratio in (("cos_o/cos_i", wo[2] / wi[2]), ("cos_i/cos_o", wi[2] / wo[2])):
+            if abs(ratio - 1.0) > 1e-3 and abs(there / back / ratio - 1.0) < 1e-3:
+                return f"{said}: their ratio is {name}, a cosine belongs to one direction only"
+    return said

@@ -1,0 +1,105 @@
+"""The expected albedo of a model: declared in its file, our own reference, or a quadrature of f."""
+from __future__ import annotations
+
+import functools
+import math
+from typing import Any
+
+from montecarlo_brdf import references
+from montecarlo_brdf.checks.claim import AGREEMENT_TOLERANCE, Measurement, Reference
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.vectors import Vec, from_degrees
+
+#: numbers from which lobe coordinates learn the width of a sampler's lobe
+PILOT = 4096
+
+
+def albedo(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+    """A(wo) as it should be; None if nothing can tell."""
+    return independent(model, one, theta_deg, phi_deg) or same_f(model, one, theta_deg, phi_deg)
+
+
+def independent(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+    """A(wo) from a formula that is not the model's f: declared by the user, or our reference."""
+    mu = from_degrees(theta_deg)[2]
+    if model.albedo:
+        return Reference(float(model.albedo(mu, one)), 0.0, "declared", f"albedo() of {model.name}")
+    if model.terms:
+        parts = [
+            (_weight(one, t), independent(t.model, t.parameters_of(one), theta_deg, phi_deg))
+            for t in model.terms
+        ]
+        return _sum(parts)
+    if not model.built_in:
+        return None
+    turned = {} if model.isotropic else {"phi_o": math.radians(phi_deg)}
+    truth = references.albedo(model.name, mu, **one._asdict(), **model.picks, **turned)
+    return Reference(*truth) if truth else None
+
+
+def same_f(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+    """A(wo) by deterministic quadrature of f: it can refute samplers and estimators, not f itself.
+
+    None where the quadrature does not resolve f well enough to judge anything by.
+    """
+    value, error = quadrature(model, one, from_degrees(theta_deg, phi_deg))
+    if not error <= 0.25 * AGREEMENT_TOLERANCE * abs(value):
+        return None
+    return Reference(value, error, "quadrature of the same f", "lobe coordinates")
+
+
+@functools.lru_cache(maxsize=1024)
+def quadrature(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> tuple[float, float]:
+    """(A(wo) or, reversed, R(wi); error) in coordinates that follow the lobe."""
+    import numpy as np
+
+    from montecarlo_brdf.checks.case import pointwise
+    from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
+
+    w = np.array(fixed)
+    f = pointwise(model, one).f
+    coordinates = Coordinates(w, lobe_scale(model, one, w))
+    found = integrate(lambda v: (f(v, w) if reverse else f(w, v)) * v[:, 2], coordinates)
+    return found.value, found.error
+
+
+def deterministic(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> Measurement:
+    """The same as an estimator beside those that sample."""
+    value, error = quadrature(model, one, fixed, reverse)
+    e = Estimate(value, error, 0, (value, value), value * value, value)
+    unfit = None if error <= 1e-5 * abs(value) else f"the quadrature resolves only {error:.0e}"
+    return Measurement("quadrature", e, unfit, error)
+
+
+def lobe_scale(model: Model, one: Any, wo: Any) -> float:
+    """The smallest slope of interest: from the model's own draws, else small enough for any lobe."""
+    import numpy as np
+
+    from montecarlo_brdf.checks.case import pointwise
+    from montecarlo_brdf.checks.lobe_coordinates import scale_of
+
+    if model.sample is None:
+        return 1e-3
+    u = np.random.default_rng(PILOT).random((PILOT, 3))
+    drawn, _ = pointwise(model, one).sample(wo, u)
+    drawn = drawn[np.isfinite(drawn).all(axis=1)]
+    return scale_of(wo, drawn[drawn[:, 2] > 0.0])
+
+
+def _weight(p: Any, term: Any) -> float:
+    return float(getattr(p, f"{term.prefix}_weight"))
+
+
+def _sum(parts: list[tuple[float, Reference | None]]) -> Reference | None:
+    """The reference of a mixture: albedo is linear in f."""
+    known = [(w, r) for w, r in parts if r is not None]
+    if len(known) < len(parts):
+        return None
+    kinds = {r.kind for _, r in known}
+    return Reference(
+        math.fsum(w * r.value for w, r in known),
+        math.fsum(w * r.error for w, r in known) + 1e-15,
+        "closed form" if kinds == {"closed form"} else "independent",
+        " + ".join(dict.fromkeys(r.source for _, r in known)),
+    )

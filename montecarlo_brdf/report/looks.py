@@ -1,0 +1,22 @@
+"""Looks at growing sample sizes, and what lies beyond a tolerance."""
+from __future__ import annotations
+
+FIRST_LOOK = 1 << 14
+GROWTH = 4
+#: added to the seed for the fresh stream that must confirm a refutation
+FRESH = 1 << 32
+
+
+def looks(most: int) -> list[int]:
+    """Sample sizes of the looks, the last one being all that is allowed."""
+    sizes = []
+    size = min(FIRST_LOOK, most)
+    while size < most:
+        sizes.append(size)
+        size *= GROWTH
+    return [*sizes, most]
+
+
+def beyond(deviation: float, slack: float, tolerance: float) -> str:
+    """"fail" if a deviation exceeds the tolerance surely, else "inconclusive"."""
+    return "fail" if deviation - slack > tolerance else "inconclusive"
