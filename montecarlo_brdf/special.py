@@ -51,7 +51,7 @@ def turn(u: float) -> tuple[float, float]:
     """
     t = u - 0.5
     s, c = sin_half_turn(t), cos_half_turn(t)
-    return 1.0 - 2.0 * s * s, 2.0 * s * c
+    return c * c - s * s, 2.0 * s * c
 
 
 def clamped(t: float, low: float, high: float) -> float:
