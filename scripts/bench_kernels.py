@@ -3,8 +3,8 @@
 The integrand f = (1 + 0.3x + 0.2y + 0.1xy)/pi needs both coordinates, so that nothing folds away;
 mean and spread are accumulated over the full azimuth. Run: python scripts/bench_kernels.py [FILE]
 with FILE for a record in JSON; the exit code is 1 if a bound is missed. Ratios are of the fastest
-times, which other load on the machine disturbs least; that of the two variants of one loop, close to
-1, is the median of 21 interleaved pairs.
+times, which other load on the machine disturbs least; that of two variants of one loop, close to 1,
+is the median of 21 interleaved pairs.
 """
 from __future__ import annotations
 

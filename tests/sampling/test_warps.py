@@ -103,7 +103,7 @@ def test_joint_distribution(function: Callable[..., Any], density: str) -> None:
 
 
 @pytest.mark.parametrize(("function", "density"), JOINT)
-def test_the_joint_test_sees_what_marginals_hide(function: Callable[..., Any], density: str) -> None:
+def test_joint_test_sees_what_marginals_hide(function: Callable[..., Any], density: str) -> None:
     """A polar angle tied to the azimuth has both marginals right."""
     tied = bulk.warped(function, U[:, 0], (U[:, 0] + 0.1 * U[:, 1]) % 1.0)
     assert joint_p_value(tied, density) < 1e-100
