@@ -58,9 +58,9 @@ def with_error(value: float, error: float) -> str:
         return f"{value:.6g}({error})"
     if error == 0.0:
         return f"{value:.15g}(0)"
-    places = max(0, 1 - math.floor(math.log10(error)))
-    digits = round(error * 10**places)
-    shown = f"{digits}" if places or digits < 100 else f"{error:.0f}"
+    mantissa, exponent = f"{error:.1e}".split("e")
+    places = max(0, 1 - int(exponent))
+    shown = mantissa.replace(".", "") if places else f"{error:.0f}"
     return f"{value:.{places}f}({shown})"
 
 

@@ -11,15 +11,18 @@ import math
 
 def tail(t: float, dof: int) -> float:
     """P(T > t) for t >= 0."""
-    if t <= 0.0:
+    q = t * t / dof
+    if t <= 0.0 or q == 0.0:
         return 0.5
+    if q == math.inf:
+        return 0.0
     a, b = dof / 2, 0.5
-    x = dof / (dof + t * t)
+    x, y = 1.0 / (1.0 + q), q / (1.0 + q)  # y = 1 - x, also where x rounds to 1
     beta = math.lgamma(a) + math.lgamma(b) - math.lgamma(a + b)
-    front = math.exp(a * math.log(x) + b * math.log1p(-x) - beta)
+    front = math.exp(b * math.log(y) - a * math.log1p(q) - beta)
     if x < (a + 1) / (a + b + 2):
         return 0.5 * front * _fraction(x, a, b) / a
-    return 0.5 * (1.0 - front * _fraction(1.0 - x, b, a) / b)
+    return 0.5 * (1.0 - front * _fraction(y, b, a) / b)
 
 
 def _fraction(x: float, a: float, b: float) -> float:
