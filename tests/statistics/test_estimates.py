@@ -1,0 +1,99 @@
+"""Estimates: how they print, merge, and never claim more digits than rounding leaves."""
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from montecarlo_brdf import student
+from montecarlo_brdf.sampling.streams import stream
+from montecarlo_brdf.statistics import FLOOR, Moments, estimate, merged, with_error
+
+PRINTED = [
+    (0.688993, 0.00076, "0.68899(76)"),
+    (0.688993, 0.0076, "0.6890(76)"),
+    (1.0, 1e-15, "1.0000000000000000(10)"),
+    (123.456, 7.8, "123.5(78)"),
+    (12345.6, 78.0, "12346(78)"),
+    (-0.5, 0.0099996, "-0.500(10)"),
+    (0.5, 0.0, "0.5(0)"),
+    (0.0, 1e-5, "0.000000(10)"),
+    (3e-316, 1e-318, "0." + "0" * 315 + "3000(10)"),
+    (math.nan, 1.0, "nan(1.0)"),
+    (math.inf, math.nan, "inf(nan)"),
+]
+
+
+@pytest.mark.parametrize(("value", "error", "text"), PRINTED)
+def test_printing(value: float, error: float, text: str) -> None:
+    shown = with_error(value, error)
+    if math.isfinite(value) and math.isfinite(error):
+        assert shown == text
+    else:
+        assert shown.split("(")[0] == text.split("(")[0]
+
+
+def moments_of(x: np.ndarray) -> Moments:
+    return Moments(x.size, float(x.mean()), float(((x - x.mean()) ** 2).sum()), float(x.max()))
+
+
+SIZES = [(1,), (1, 1), (3, 1, 4, 1, 5), (1000, 1, 1, 1), tuple(range(1, 40))]
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+def test_merging_is_as_good_as_all_at_once(sizes: tuple[int, ...]) -> None:
+    rng = np.random.default_rng(5)
+    parts = [rng.normal(1e3, 1.0, n) for n in sizes]
+    got, whole = merged([moments_of(p) for p in parts]), moments_of(np.concatenate(parts))
+    assert got.count == whole.count and got.largest == whole.largest
+    assert got.mean == pytest.approx(whole.mean, rel=1e-14)
+    # a deviation carries the rounding of a mean of 1e3: 1e-13 relative to 1, doubled by squaring
+    assert got.squares == pytest.approx(whole.squares, rel=1e-11, abs=1e-10)
+
+
+def test_merging_keeps_a_constant_exact() -> None:
+    total = merged([Moments(n, 0.1, 0.0, 0.1) for n in (1024, 1024, 7)])
+    assert total == Moments(2055, 0.1, 0.0, 0.1)
+
+
+def test_mean_and_error_bar_of_replicates() -> None:
+    means = [1.0, 2.0, 4.0, 5.0]
+    e = estimate([Moments(10, m, 0.0, m) for m in means])
+    assert e.mean == 3.0 and e.samples == 40 and e.dof == 3 and e.replicates == tuple(means)
+    assert e.stderr == pytest.approx(np.std(means, ddof=1) / 2.0, rel=1e-15)
+    assert e.half_width(0.05) == student.quantile(0.025, 3) * e.stderr
+    assert e.second_moment == pytest.approx(np.mean(np.square(means)), rel=1e-15)
+    assert e.largest == 5.0
+    assert str(e) == with_error(e.mean, e.stderr)
+
+
+def test_no_spread_leaves_the_floor() -> None:
+    e = estimate([Moments(8, 0.8, 0.0, 0.8)] * 16)
+    assert e.stderr == FLOOR * 0.8 > 0.0
+    assert estimate([Moments(8, 0.0, 0.0, 0.0)] * 16).stderr == 0.0  # zero is exact
+
+
+def test_one_replicate_has_no_error_bar() -> None:
+    e = estimate([Moments(8, 0.8, 1.0, 0.8)])
+    assert e.stderr == math.inf and e.dof == 0 and e.half_width(0.01) == math.inf
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_a_bad_sample_spoils_the_estimate_visibly(bad: float) -> None:
+    e = estimate([Moments(8, 0.8, 0.0, 0.8), Moments(8, bad, 0.0, 0.8)])
+    assert math.isnan(e.mean) and math.isnan(e.stderr)
+
+
+def test_effective_samples() -> None:
+    assert estimate([Moments(8, 0.8, 0.0, 0.8)] * 2).effective_samples() == pytest.approx(16)
+    assert estimate([Moments(8, 0.0, 0.0, 0.0)] * 2).effective_samples() == 0.0
+
+
+def test_streams_depend_on_content_only() -> None:
+    names = [("lambert", 0.1), ("lambert", 0.2), ("ggx", 0.1), ("ggx", 0.1, "cosine"), ("ggx0.1",)]
+    forwards = [stream(7, *n) for n in names]
+    assert [stream(7, *n) for n in reversed(names)] == forwards[::-1]
+    assert len({*forwards, *(stream(8, *n) for n in names)}) == 10
+    assert all(0 <= key < 1 << 64 for key in forwards)
+    assert stream(0, "a", "b") != stream(0, "ab") != stream(0, "a\x1fb", "")
