@@ -32,6 +32,7 @@ _HOMES = {
     "hemisphere_integral": "integration.estimators",
     "furnace": "verify",
     "identities": "verify",
+    "run": "verify",
 }
 
 __all__ = ["__version__", *_HOMES]

@@ -47,13 +47,15 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
         expected = truth.albedo(case.model, one, theta, case.phi_o_deg)
         scale = abs(expected.value) if expected else 1.0
         source = functools.partial(of_channel, measured, k)
+        other = expected is not None and not expected.kind.startswith("quadrature")
+        more = other and case.samplers is None  # a quadrature of f says nothing about itself
         yield MeanClaim(
             "A",
             where,
             "equal",
             expected,
             case.tolerated(AGREEMENT_TOLERANCE) * scale,
-            source,
+            functools.partial(_and_quadrature, case, one, theta, source) if more else source,
             unit=units(case.model, one),
         )
         yield MeanClaim(
@@ -103,12 +105,8 @@ def of_channel(measured: Any, k: int, plan: Plan) -> list[Measurement]:
 
 
 def _and_quadrature(case: Case, one: Any, theta: float, source: Any, plan: Plan) -> list[Measurement]:
-    """What samples say and, where they do not settle whether A <= 1, what a quadrature of f says."""
-    sampled: list[Measurement] = source(plan)
-    high = max((m.estimate.mean for m in sampled if not m.unfit), default=1.0)
-    if high < 0.99 and any(not m.unfit for m in sampled):
-        return sampled
-    return [*sampled, truth.deterministic(case.model, one, case.wo(theta))]
+    """What samples say and what a quadrature of f says, which resolves any lobe."""
+    return [*source(plan), truth.deterministic(case.model, one, case.wo(theta))]
 
 
 def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:

@@ -48,9 +48,9 @@ def sampling_options(command: Callable[..., Any]) -> Callable[..., Any]:
     options = [
         click.option("--points", default="sobol", show_default=True, metavar="SET",
                      help="Point set: sobol or independent. [--points independent]"),
-        click.option("--samples", type=Whole(), default="2^22", show_default=True,
+        click.option("--samples", type=Whole(), default=None,
                      help="The most samples a claim may take; it stops sooner where it is decided. "
-                     "[--samples 2^20]"),
+                     "[--samples 2^20]  [default: 2^22; run: 2^20]"),
         click.option("--seed", default="0", show_default=True, metavar="NUMBER",
                      help="A number, or random (printed). [--seed 7]"),
         click.option("--threads", type=Whole(), default=None,

@@ -68,7 +68,7 @@ def command(**options: Any) -> int:
             phi_o_deg=number(options["phi_o"], "phi-o"),
             sampler="all" if names == ["all"] else names,
             points=options["points"],
-            samples=options["samples"],
+            samples=verify.SAMPLES if options["samples"] is None else options["samples"],
             seed=_options.seed_of(options["seed"]),
             threads=options["threads"],
             tolerance=options["tolerance"],

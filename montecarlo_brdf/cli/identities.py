@@ -25,7 +25,7 @@ def command(**options: Any) -> int:
     with progress("identities") as update:
         report = verify.identities(
             points=options["points"],
-            samples=options["samples"],
+            samples=verify.SAMPLES if options["samples"] is None else options["samples"],
             seed=_options.seed_of(options["seed"]),
             threads=options["threads"],
             tolerance=options["tolerance"],

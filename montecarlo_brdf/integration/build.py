@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import functools
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
@@ -23,6 +23,10 @@ class Buildable(Protocol):
 
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
+        ...
+
+    def parts(self) -> Hashable:
+        """The very objects it is made of: within a process the same objects are the same kernel."""
         ...
 
     def assemble(self) -> Function:
@@ -63,6 +67,10 @@ class Recipe(NamedTuple):
         content.add(len(self.integrands))
         return content.hexdigest()
 
+    def parts(self) -> Hashable:
+        """Points, functions and layout."""
+        return self.points, self.integrands, frozenset(self.functions.items()), self.layout
+
     def assemble(self) -> Function:
         """The template `moments` with everything bound."""
         special = specialiser()
@@ -100,15 +108,20 @@ def _compiler_source() -> tuple[bytes, ...]:
 
 
 _loaded: dict[str, native.NativeKernel] = {}
+_seen: dict[Hashable, native.NativeKernel] = {}  # spares the hash of all code at every call
 _lock = threading.Lock()
 
 
 def kernel_of(recipe: Buildable) -> native.NativeKernel:
     """The compiled kernel of a recipe."""
+    parts = recipe.parts()
+    if parts in _seen:
+        return _seen[parts]
     key = recipe.key()
     with _lock:
         if key not in _loaded:
             _loaded[key] = _from_disk(key) or _from_source(recipe, key)
+        _seen[parts] = _loaded[key]
         return _loaded[key]
 
 

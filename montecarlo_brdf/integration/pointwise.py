@@ -61,6 +61,10 @@ class Listing(NamedTuple):
         content.add(self.template, self.bound)
         return content.hexdigest()
 
+    def parts(self) -> Any:
+        """Template, functions and layout."""
+        return self.template, frozenset(self.bound.items()), self.layout
+
     def assemble(self) -> Any:
         """The template with everything bound."""
         unpack = parameters.unpacker(self.layout)

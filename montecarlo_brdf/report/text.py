@@ -1,6 +1,8 @@
 """A report as people read it on a terminal: a table, then what needs attention."""
 from __future__ import annotations
 
+import itertools
+import math
 import sys
 from typing import Any
 
@@ -8,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from montecarlo_brdf.report.findings import Finding, Report, Result, worst
+from montecarlo_brdf.report.findings import SEVERITY, Finding, Report, Result, worst
 from montecarlo_brdf.statistics import with_error
 
 COLOURS = {
@@ -20,18 +22,65 @@ COLOURS = {
     "skipped": "dim",
 }
 PLAIN_WIDTH = 118
-SYMBOLS = {"theta_o_deg": "theta_o", "theta_i_deg": "theta_i", "phi_o_deg": "phi_o", "channel": "ch"}
+SYMBOLS = {"theta_o_deg": "theta_o", "theta_i_deg": "theta_i",
+    "phi_o_deg": "phi_o", "phi_i_deg": "phi_i", "channel": "ch"}  # fmt: skip
 
 
 def show(report: Report, verbose: bool = False) -> None:
     """Print a report on stdout."""
     width = None if sys.stdout.isatty() else PLAIN_WIDTH
     console = Console(width=width, highlight=False, soft_wrap=False)
-    for result in report.results:
-        console.print(Text(title(result), style="bold"))
-        console.print(table(result))
-        _print_attention(console, result, verbose)
+    if report.command == "run" and not verbose:
+        for group in grouped(report.results):
+            console.print(Text(title(group[0]).rpartition("  ")[0], style="bold"))
+            console.print(check_table(group))
+            for result in group:
+                _print_attention(console, result, verbose)
+    else:
+        for result in report.results:
+            console.print(Text(title(result), style="bold"))
+            console.print(table(result))
+            _print_attention(console, result, verbose)
     console.print(summary(report), soft_wrap=True)
+
+
+def grouped(results: list[Result]) -> list[list[Result]]:
+    """Consecutive results of the same model and parameters."""
+    key = lambda r: (r.model, repr(r.params))  # noqa: E731
+    return [list(group) for _, group in itertools.groupby(results, key)]
+
+
+def check_table(results: list[Result]) -> Table:
+    """One row per check: how many claims, and the worst finding."""
+    grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for name in ("check", "claims", "worst", "estimate", "bound", "where", "verdict"):
+        grid.add_column(name, overflow="fold", no_wrap=name in ("check", "verdict"))
+    for result in results:
+        f = min(result.findings, key=lambda f: (SEVERITY.index(f.verdict), -_excess(f)))
+        known = f.expected is not None and math.isfinite(f.value)
+        grid.add_row(
+            result.check,
+            str(sum(g.verdict != "skipped" for g in result.findings)),
+            f.quantity if known else "",
+            with_error(f.value, f.stderr) if known else "",
+            _bound(f) if known else "",
+            _where(f) if f.where else "",
+            Text(f.verdict.upper() if f.verdict in ("fail", "error") else f.verdict, COLOURS[f.verdict]),
+        )
+    return grid
+
+
+def _excess(f: Finding) -> float:
+    """How near a finding came to its tolerance."""
+    if f.expected is None or not f.tolerance or not math.isfinite(f.value):
+        return 0.0
+    return abs(f.value - f.expected) / f.tolerance if f.bound == "equal" else f.value - f.expected
+
+
+def _bound(f: Finding) -> str:
+    sign = {"at most": "<= ", "at least": ">= ", "equal": ""}[f.bound]
+    tolerance = f" +- {f.tolerance:.1e}" if f.tolerance else ""
+    return f"{sign}{f.expected:.8g}{tolerance}"
 
 
 def title(result: Result) -> str:
@@ -64,7 +113,9 @@ def table(result: Result) -> Table:
 def _place(name: str, value: Any) -> str:
     if value is None:
         return ""
-    return f"{value:g}°" if name.endswith("_deg") else str(value)
+    if name.endswith("_deg"):
+        return f"{value:g}°"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def _cells(f: Finding) -> list[Any]:

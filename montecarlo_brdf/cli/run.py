@@ -1,0 +1,36 @@
+"""brdf-check run"""
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from montecarlo_brdf.cli import _options
+
+EPILOG = """\b
+Examples:
+  brdf-check run --model ggx
+  brdf-check run --model my_brdf.py -p alpha=0.05:1:log5 --check energy,reciprocity
+  brdf-check run --model my_ggx.py --against ggx --max-time 10
+  brdf-check run --model all
+"""
+
+
+@click.command("run", epilog=EPILOG, short_help="Every check of one, several or all models.")
+@_options.model_option
+@click.option("--check", "names", default="all", show_default=True, metavar="NAMES",
+              help="Which checks, separated by commas. [--check energy,pdf]")
+@click.option("--theta-o", default="0,45,80", show_default=True, metavar="DEGREES",
+              help="Angles of the viewer in [0, 90) for checks that look at some. [--theta-o 0:85:6]")
+@click.option("--phi-o", default="0", metavar="DEGREES", help="Azimuth of the viewer. [--phi-o 45]")
+@click.option("--against", metavar="MODEL", help="A model that it must equal in values. [--against ggx]")
+@click.option("--max-time", type=float, metavar="SECONDS",
+              help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
+@_options.sampling_options
+@_options.output_options
+def command(**options: Any) -> int:
+    """All checks, or those named, with the worst finding of each, its likely cause and a command
+    that reproduces it. Parameters without -p are searched over their range for the worst case."""
+    from montecarlo_brdf.cli._running import run_all
+
+    return run_all(options)
