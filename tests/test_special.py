@@ -32,7 +32,7 @@ def compiled(function: Callable[[float], float]) -> Callable[[Any, Any], None]:
 
     from montecarlo_brdf import jit
 
-    return numba.njit(**jit.options())(build._specialiser().clone(run, {"F": function}))
+    return numba.njit(**jit.options())(build.specialiser().clone(run, {"F": function}))
 
 
 def both(function: Callable[[float], float], x: Any) -> list[Any]:
@@ -80,14 +80,10 @@ def test_relative_error(function: Any, truth: Any, x: Any, bound: float) -> None
         assert error(got, exact) < bound
 
 
-def test_absolute_errors() -> None:
+def test_absolute_error_of_cosine() -> None:
     x = spread(-0.5, 0.5)
     for got in both(special.cos_half_turn, x):
         assert error(got, [mp.cospi(mp.mpf(float(v))) for v in x], relative=False) < 3e-16
-    a = spread(0.0, 7.0)
-    exact = [mp.exp(mp.mpf(float(v)) ** 2) * mp.erfc(mp.mpf(float(v))) for v in a]
-    for got in both(special.erfcx, a):
-        assert error(got, exact, relative=False) < 6e-16
 
 
 @pytest.mark.parametrize("n", [0.3, 1.0, 32.5, 1e3, 1e7])

@@ -9,6 +9,7 @@ horizon; its absolute error is below 5e-11 for alpha >= 1e-4.
 """
 from __future__ import annotations
 
+import functools
 import math
 from typing import Any, NamedTuple
 
@@ -37,7 +38,8 @@ def lost(mu: float, p: Table) -> float:
     """1 - E(mu)."""
     q = p.alpha / (p.alpha + mu)
     away = mu / (p.alpha + mu) / (1.0 + math.sqrt(q)) / farthest(p.alpha)
-    return table_at(2.0 * math.sqrt(math.sqrt(away)) - 1.0, p)
+    value = table_at(2.0 * math.sqrt(math.sqrt(away)) - 1.0, p)
+    return 0.0 if value < 0.0 else value  # at the horizon it is less than the error of the fit
 
 
 def table_at(t: float, p: Table) -> float:
@@ -60,8 +62,13 @@ def farthest(alpha: float) -> float:
 
 def table(alpha: float, f0: float) -> Table:
     """The table of one alpha."""
-    series = fitted(lambda t: lost_exactly(cosine_at(t, alpha), alpha), TERMS)
-    return Table(alpha, f0, 1.0, *series)
+    return Table(alpha, f0, 1.0, *coefficients(alpha))
+
+
+@functools.lru_cache(maxsize=64)
+def coefficients(alpha: float) -> tuple[Eight, ...]:
+    """The series of one alpha, which takes some 30 ms to make."""
+    return fitted(lambda t: lost_exactly(cosine_at(t, alpha), alpha), TERMS)
 
 
 def cosine_at(t: float, alpha: float) -> float:

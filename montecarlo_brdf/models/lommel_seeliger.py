@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from montecarlo_brdf.sampling.warps import UNIFORM_HEMISPHERE_PDF, random_hemisphere
+from montecarlo_brdf.special import turn
 from montecarlo_brdf.vectors import Vec
 
 
@@ -32,10 +32,12 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
 
 
 def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Uniform over the hemisphere."""
-    return random_hemisphere(u[0], u[1])
+    """Uniform over the hemisphere, one to one: z = 1 - u."""
+    c, s = turn(u[1])
+    r = math.sqrt(u[0] * (2.0 - u[0]))
+    return r * c, r * s, 1.0 - u[0]
 
 
 def pdf(wo: Vec, wi: Vec, p: Params) -> float:
     """1/(2 pi)."""
-    return UNIFORM_HEMISPHERE_PDF
+    return 0.5 / math.pi
