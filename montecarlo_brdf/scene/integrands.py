@@ -67,14 +67,17 @@ def weighted(u: Any, wo: Any, p: Any) -> float:
 def mixed(u: Any, wo: Any, p: Any) -> float:
     """wi from the model's sampler or the sky's, half each, over the density of the mixture.
 
+    The halves of u[0] choose and are stretched, so that each sampler gets a whole point set.
     One-sample multiple importance sampling with the balance heuristic: it sees a narrow lobe and a
     small light alike. Source: Veach 1997, "Robust Monte Carlo methods", section 9.2.4.
     """
     view = (wo[0], wo[1], wo[2])
-    wi = SKY_SAMPLE(u[0], u[1], p.sky)
-    if u[4] < 0.5:
-        drawn = SAMPLE(view, (u[0], u[1], u[2]), p.model)
+    twice = 2.0 * u[0]
+    if twice < 1.0:
+        drawn = SAMPLE(view, (twice, u[1], u[2]), p.model)
         wi = (drawn[0], drawn[1], drawn[2])
+    else:
+        wi = SKY_SAMPLE(twice - 1.0, u[1], p.sky)
     if wi[2] <= 0.0:
         return 0.0
     density = 0.5 * (PDF(view, wi, p.model) + SKY_PDF(wi, p.sky))

@@ -65,6 +65,7 @@ class Image(NamedTuple):
     table: float = 0.0  # of the cumulative distribution for sampling
     width: float = 0.0
     height: float = 0.0
+    content: float = 0.0  # a hash: what the image shows, wherever it lies
 
 
 def away(w: Vec, axis: Vec) -> float:
@@ -190,6 +191,16 @@ def visible_share(shape: Any) -> float:
 def axis_of(shape: Any) -> Vec:
     """The shape's axis; the normal if it has none."""
     return getattr(shape, "axis", NORMAL)
+
+
+def identity(shape: Any) -> str:
+    """What a stream is named after: equal for equal skies in any process."""
+    return repr(shape[2:]) if isinstance(shape, Image) else repr(shape)
+
+
+def concentrated(shape: Any) -> bool:
+    """Whether it shines from so little of the hemisphere that its own sampler is worth while."""
+    return isinstance(shape, (Cap, Cosine, Image))
 
 
 def symmetric(shape: Any) -> bool:

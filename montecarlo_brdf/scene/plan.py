@@ -1,0 +1,206 @@
+"""What a scene needs to be evaluated, before anything is: the rest is skipped, with the reason.
+
+Skipping is exact: what is left out is zero, equal to something that is evaluated, or a multiple of
+it. `skip=False` gives the long way, every lobe, channel, light and view for itself.
+"""
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.scene import skies
+from montecarlo_brdf.scene.lights import ORIGIN, is_black
+from montecarlo_brdf.scene.scene import Scene
+from montecarlo_brdf.scene.skies import Sky
+from montecarlo_brdf.scene.surface import Lobe, ignores_directions
+from montecarlo_brdf.vectors import Vec, from_degrees
+
+View = tuple[float, float]  # theta, phi in degrees
+
+
+class Item(NamedTuple):
+    """One line of --explain."""
+
+    what: str
+    evaluated: bool
+    reason: str
+    estimates: int = 0  # per view, that are run or saved
+
+
+class Share(NamedTuple):
+    """A channel's part of a work: factor times the estimate of set `index`."""
+
+    index: int
+    factor: float
+
+
+class Work(NamedTuple):
+    """One lobe under the sky: distinct parameter sets, and what every channel takes of them."""
+
+    name: str
+    model: Model
+    sets: tuple[tuple[Any, Any], ...]  # (parameters, sky shape)
+    shares: tuple[Share | None, ...]  # per channel
+    method: str
+
+
+class ScenePlan(NamedTuple):
+    """All that is evaluated."""
+
+    scene: Scene
+    works: list[Work]
+    lights: list[tuple[Vec, tuple[float, ...]]]  # direction, irradiance across the beam
+    lobes: list[Lobe]  # that lights are reflected by
+    views: dict[View, View]  # every view, and the one that is evaluated for it
+    items: list[Item]
+    skip: bool
+
+
+def make(scene: Scene, skip: bool = True) -> ScenePlan:
+    """The plan of a scene whose surface is made of lobes."""
+    items: list[Item] = []
+    lobes = _lobes(scene, skip, items)
+    works = _works(scene, lobes, skip, items)
+    lights = _lights(scene, skip, items)
+    for name in ("ambient", "emission"):
+        if skip and not any(getattr(scene, name)):
+            items.append(Item(name, False, "it is zero"))
+    return ScenePlan(scene, works, lights, lobes, _views(scene, skip, items), items, skip)
+
+
+def _lobes(scene: Scene, skip: bool, items: list[Item]) -> list[Lobe]:
+    kept = []
+    for lobe in scene.surface.lobes:  # type: ignore[union-attr]
+        if skip and not any(lobe.weights):
+            items.append(Item(f"lobe {lobe.name}", False, "its weight is zero", scene.channels))
+        else:
+            kept.append(lobe)
+    return kept
+
+
+def _works(scene: Scene, lobes: list[Lobe], skip: bool, items: list[Item]) -> list[Work]:
+    sky = scene.sky
+    if sky is None:
+        return []
+    if skip and (sky.black or all(map(skies.below_horizon, sky.shapes))):
+        reason = "it is black" if sky.black else "all of it is below the horizon"
+        items.append(Item("environment", False, reason, len(lobes) * scene.channels))
+        return []
+    if not skip:
+        return [_alone(lobe, sky, c) for lobe in lobes for c in range(scene.channels)]
+    return [work for lobe in lobes if (work := _shared(lobe, sky, items))]
+
+
+def _alone(lobe: Lobe, sky: Sky, c: int) -> Work:
+    """One channel of a lobe the long way: hemisphere sampling, whatever the factor."""
+    count = len(lobe.weights)
+    share = Share(0, lobe.weights[c] * sky.scales[c])
+    shares = tuple(share if k == c else None for k in range(count))
+    method = "own" if lobe.model.sample else "cosine"
+    return Work(lobe.name, lobe.model, ((lobe.sets[c], sky.shapes[c]),), shares, method)
+
+
+def _shared(lobe: Lobe, sky: Sky, items: list[Item]) -> Work | None:
+    """A lobe with its distinct parameter sets; equal and proportional channels share one."""
+    sets: list[tuple[Any, Any]] = []
+    shares: list[Share | None] = []
+    for weight, p, shape, scale in zip(lobe.weights, lobe.sets, sky.shapes, sky.scales, strict=True):
+        unit, factor = unscaled(lobe.model, p)
+        factor *= weight * scale
+        if factor == 0.0:
+            shares.append(None)
+            continue
+        if (unit, shape) not in sets:
+            sets.append((unit, shape))
+        shares.append(Share(sets.index((unit, shape)), factor))
+    if not sets:
+        items.append(Item(f"lobe {lobe.name}", False, "it reflects nothing", len(shares)))
+        return None
+    work = Work(lobe.name, lobe.model, tuple(sets), tuple(shares), method_of(lobe.model, sets[0][1]))
+    _explain(work, items)
+    return work
+
+
+def unscaled(model: Model, p: Any) -> tuple[Any, float]:
+    """The parameter set with its scale taken out, and the scale: f is proportional to it."""
+    name = model.scales_with
+    if not name:
+        return p, 1.0
+    return p._replace(**{name: 1.0}), float(getattr(p, name))
+
+
+def method_of(model: Model, shape: Any) -> str:
+    """The sampler for a lobe under a sky: the cheapest that sees both."""
+    if ignores_directions(model):
+        constant = isinstance(shape, skies.Constant)
+        return "one value" if constant else "sky" if skies.concentrated(shape) else "cosine"
+    if skies.concentrated(shape):
+        return "mixed" if model.sample and model.pdf else "sky"
+    return "own" if model.sample else "cosine"
+
+
+def _explain(work: Work, items: list[Item]) -> None:
+    name = f"lobe {work.name}"
+    dark = work.shares.count(None)
+    equal = len(work.shares) - dark - len(work.sets)
+    if dark:
+        items.append(Item(f"{name}, {dark} channels", False, "black", dark))
+    if equal:
+        reason = "equal to another channel, or a multiple of it"
+        items.append(Item(f"{name}, {equal} channels", False, reason, equal))
+    if work.method == "one value":
+        items.append(Item(name, False, "the integrand is constant: one evaluation", len(work.sets)))
+        return
+    shape = work.sets[0][1]
+    share = skies.visible_share(shape)
+    if share < 1.0 and work.method == "sky":
+        reason = f"only the {share:.2g} of the hemisphere that the cap covers is sampled"
+        items.append(Item("directions beyond the cap", False, reason))
+    items.append(Item(name, True, f"{work.method} sampling, {len(work.sets)} parameter sets", len(work.sets)))
+
+
+def _lights(scene: Scene, skip: bool, items: list[Item]) -> list[tuple[Vec, tuple[float, ...]]]:
+    """Directions and irradiances at the origin."""
+    found = []
+    black = below = 0
+    for light in scene.lights:
+        if skip and is_black(light):
+            black += 1
+            continue
+        wi, factor = light.at(ORIGIN)
+        if skip and wi[2] <= 0.0:
+            below += 1
+            continue
+        found.append((wi, tuple(factor * c for c in light.colour)))
+    for count, reason in ((black, "black"), (below, "below the horizon")):
+        if count:
+            items.append(Item(f"{count} lights", False, reason))
+    if found:
+        items.append(Item(f"{len(found)} lights", True, "exact sum, no samples"))
+    return found
+
+
+def _views(scene: Scene, skip: bool, items: list[Item]) -> dict[View, View]:
+    """Views that must give the same radiance are evaluated once."""
+    views = [(t, p) for t in scene.view.theta_o_deg for p in scene.view.phi_o_deg]
+    surface: Any = scene.surface
+    if not skip:
+        return {v: v for v in views}
+    turned = surface.isotropic and not scene.lights
+    turned = turned and (scene.sky is None or all(map(skies.symmetric, scene.sky.shapes)))
+    if surface.constant:
+        found = {v: views[0] for v in views}
+    elif turned:
+        found = {(t, p): (t, views[0][1]) for t, p in views}
+    else:
+        found = {v: v for v in views}
+    saved = len(views) - len(set(found.values()))
+    if saved:
+        why = "the surface looks the same from everywhere" if surface.constant else "equal by symmetry"
+        items.append(Item(f"{saved} views", False, why))
+    return found
+
+
+def direction_of(view: View) -> Vec:
+    """The view's unit vector."""
+    return from_degrees(*view)

@@ -1,0 +1,65 @@
+"""A surface: lobes with a weight and parameters per channel, f_c = sum of weight_c f(params_c).
+
+Lobes come from `model` and parameters, or from a list of lobes; a model that is a mixture is taken
+apart into its terms, so that each can be planned for itself.
+"""
+from __future__ import annotations
+
+import dis
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.model import Model, channels
+
+
+class Lobe(NamedTuple):
+    """One model of a surface; weights and parameter sets have one entry per channel."""
+
+    name: str
+    weights: tuple[float, ...]
+    model: Model
+    sets: tuple[Any, ...]
+
+
+class Surface(NamedTuple):
+    """All lobes."""
+
+    lobes: tuple[Lobe, ...]
+
+    @property
+    def isotropic(self) -> bool:
+        """Whether turning about the normal changes nothing."""
+        return all(lobe.model.isotropic for lobe in self.lobes)
+
+    @property
+    def constant(self) -> bool:
+        """Whether f is the same for every pair of directions."""
+        return all(ignores_directions(lobe.model) for lobe in self.lobes)
+
+
+def lobes_of(model: Model, p: Any, weights: tuple[float, ...], count: int) -> list[Lobe]:
+    """The lobes of a model with a parameter set, spread over `count` channels."""
+    sets = spread(tuple(channels(p)), count)
+    model = model.of(p)
+    if not model.terms:
+        return [Lobe(model.name, weights, model, sets)]
+    found = []
+    for term in model.terms:
+        shares = [w * getattr(s, f"{term.prefix}_weight") for w, s in zip(weights, sets, strict=True)]
+        own = tuple(term.parameters_of(s) for s in sets)
+        found.append(Lobe(term.prefix, tuple(shares), term.model, own))
+    return found
+
+
+def spread(values: tuple[Any, ...], count: int) -> tuple[Any, ...]:
+    """One value per channel."""
+    return values * count if len(values) == 1 else values
+
+
+def ignores_directions(model: Model) -> bool:
+    """Whether f never looks at wo and wi: then it is a constant, proven by its code."""
+    function = getattr(model.f, "py_func", model.f)
+    code = function.__code__
+    directions = set(code.co_varnames[:2])
+    loads = {i.argval for i in dis.get_instructions(code) if i.opname.startswith(("LOAD_FAST", "LOAD_DEREF"))}
+    used = {name for v in loads for name in (v if isinstance(v, tuple) else (v,))}
+    return not (used & directions) and not code.co_cellvars
