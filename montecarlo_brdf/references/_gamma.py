@@ -1,4 +1,4 @@
-"""Gamma(a + 1/2)/Gamma(a) to full accuracy: the difference of two lgamma loses ten digits at 1e6."""
+"""Gamma(a + 1/2)/Gamma(a); as the difference of two lgamma it would lose ten digits at 1e6."""
 
 import math
 

@@ -8,8 +8,8 @@ The integral of D over the azimuth of the light is elementary. With sigma, delta
     a = 4 cos^2(sigma) cos^2(delta) (1 - alpha^2),
     integral D dphi = 2 alpha^2 [1 + 2 a/sqrt(P- P+) + a^2 (P- + P+)/(2 (P- P+)^(3/2))],
 
-sums of positive terms for alpha <= 1 at any angle. Elevations above the horizon keep the digits near
-grazing, polar angles those near the normal. Independent of the slope-domain quadrature.
+sums of positive terms for alpha <= 1 at any angle. Elevations above the horizon keep the digits
+near grazing, polar angles those near the normal. Independent of the slope-domain quadrature.
 """
 
 import math
@@ -24,7 +24,7 @@ from montecarlo_brdf.references._truth import sine
 
 
 class _Directions(NamedTuple):
-    """Lights on one side of the view: angles in forms that keep digits at the normal and grazing."""
+    """Lights on one side of the view, as angles that keep digits at the normal and grazing."""
 
     elevation: Array
     theta: Array
@@ -32,9 +32,7 @@ class _Directions(NamedTuple):
     weight: Array
 
 
-def _azimuth_integral(
-    light: _Directions, elevation_o: float, theta_o: float, alpha: float
-) -> Array:
+def _around(light: _Directions, elevation_o: float, theta_o: float, alpha: float) -> Array:
     cos_sigma2 = np.sin(0.5 * (light.elevation + elevation_o)) ** 2
     sin_sigma2 = np.sin(0.5 * (light.theta + theta_o)) ** 2
     cos_delta2, sin_delta2 = np.cos(0.5 * light.away) ** 2, np.sin(0.5 * light.away) ** 2
@@ -57,11 +55,11 @@ def unit_albedo(mu_o: float, alpha: float) -> tuple[float, float]:
         mu, s = np.sin(light.elevation), np.sin(light.theta)
         rough, rough_o = np.hypot(mu, alpha * s), np.hypot(mu_o, alpha * s_o)
         smith = 2.0 / (mu_o * rough + mu * rough_o)  # G/(mu_i mu_o)
-        around = _azimuth_integral(light, up, theta, alpha)
+        around = _around(light, up, theta, alpha)
         return light.weight * around * 0.25 * smith * mu * s
 
     def rule(size: float) -> Sum:
-        x, rest, weight = tanh_sinh(2 * int(size * (40.0 - 8.0 * np.log(alpha))))
+        x, rest, weight = tanh_sinh(2 * int(size * (40.0 - 8.0 * math.log(alpha))))
         below = _Directions(up * x, theta + up * rest, up * rest, up * weight)
         above = _Directions(up + theta * x, theta * rest, theta * x, theta * weight)
         return total(np.concatenate([terms(below), terms(above)]))

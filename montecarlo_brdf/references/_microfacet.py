@@ -181,7 +181,13 @@ def schlick_k_ibl(g: Geometry, d: Distribution) -> Array:
 
 
 MASKINGS: dict[str, Visibility] = {
-    f.__name__: f
-    for f in (smith, separable, v_cavity, walter, kelemen, implicit, none)
-    + (schlick_k_direct, schlick_k_ibl)
+    "smith": smith,
+    "separable": separable,
+    "v_cavity": v_cavity,
+    "walter": walter,
+    "kelemen": kelemen,
+    "implicit": implicit,
+    "none": none,
+    "schlick_k_direct": schlick_k_direct,
+    "schlick_k_ibl": schlick_k_ibl,
 }

@@ -1,6 +1,7 @@
 """Moments of Phong's lobe over the hemisphere (Arvo 1995; Lafortune & Willems 1994), in sums.
 
-    double axis  J_n = integral (w.r)+^n (w.n)+ dw,   single axis  M_n = integral_{w.n>0} (w.r)+^n dw
+    double axis  J_n = integral (w.r)+^n (w.n)+ dw
+    single axis  M_n = integral (w.r)+^n dw  over w.n > 0
 
 for the axis r at angle theta from n, real n > -1. With B_n = sqrt(pi) Gamma((n+1)/2)/Gamma(n/2+1)
 the identity B_n B_{n+1} = 2 pi/(n+1) turns the published differences into sums of positive terms,

@@ -52,7 +52,7 @@ def gauss(n: int) -> Nodes:
 
 def node_count(wanted: float) -> int:
     """The next of 8, 10, 12, 14, 16, 20, ...: few sizes, so that cached node sets are found."""
-    step = 2 ** max(math.floor(math.log2(wanted)) - 2, 1)
+    step: int = 2 ** max(math.floor(math.log2(wanted)) - 2, 1)
     return step * math.ceil(wanted / step)
 
 
@@ -81,7 +81,7 @@ def tanh_sinh(n: int) -> Nodes:
     return Nodes(near, far, step * np.pi * np.cosh(s) * near * far)
 
 
-def panels(nodes: Nodes, edges: Sequence[float]) -> tuple[Array, Array]:
+def panels(nodes: Nodes, edges: Sequence[float] | Array) -> tuple[Array, Array]:
     """The rule repeated on every interval between the edges: nodes and weights."""
     starts, widths = np.array(edges[:-1])[:, None], np.diff(edges)[:, None]
     return (starts + widths * nodes.x).ravel(), (widths * nodes.weight).ravel()

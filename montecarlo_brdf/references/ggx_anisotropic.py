@@ -1,9 +1,9 @@
 """Anisotropic GGX, height-correlated Smith masking, Schlick's Fresnel.  Heitz 2014, section 5.
 
-Slopes in polar form about the normal, t (cos phi, sin phi), as in `_quadrature`: along phi the scale
-of P22 is m = 1/|(cos phi/alpha_x, sin phi/alpha_y)| and k = tan(theta_o) cos(phi - phi_o). D and
-masking change within alpha_x/alpha_y of the axes, the horizon within cos theta_o of k = 0: panels end
-there, with a double-exponential rule. The albedo depends on the azimuth phi_o (radians) too.
+Slopes in polar form about the normal, t (cos phi, sin phi), as in `_quadrature`: along phi the
+scale of P22 is m = 1/|(cos phi/alpha_x, sin phi/alpha_y)| and k = tan(theta_o) cos(phi - phi_o). D
+and masking change within alpha_x/alpha_y of the axes, the horizon within cos theta_o of k = 0:
+panels end there, with a double-exponential rule. The albedo depends on phi_o (radians) too.
 """
 
 import math
@@ -65,7 +65,10 @@ def _integrate(
         g, measure = slopes(mu_o, k, [np.zeros_like(k), end], m, node_count(size * n_slope))
         # the light's direction times alpha, from w_i = 2 (h.v) h - w_o
         twice = 2.0 * g.h_v * g.h_n * g.t
-        light_x, light_y = alpha_x * (twice * x - mu_o * view_x), alpha_y * (twice * y - mu_o * view_y)
+        light_x, light_y = (
+            alpha_x * (twice * x - mu_o * view_x),
+            alpha_y * (twice * y - mu_o * view_y),
+        )
         rough = np.sqrt(np.maximum(g.mu_i**2 + light_x**2 + light_y**2, TINY))
         masking = 2.0 * g.mu_i / (g.mu_i * rough_o + mu_o * rough)  # G/mu_o
         p22 = 1.0 / (math.pi * alpha_x * alpha_y * (1.0 + (g.t / m) ** 2) ** 2)
