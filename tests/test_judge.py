@@ -1,0 +1,214 @@
+"""The judge on synthetic estimates: what it calls pass, fail, inconclusive and known, and when."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import pytest
+
+from montecarlo_brdf import student
+from montecarlo_brdf.checks.claim import MeanClaim, Measurement, Reference
+from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.report import judge
+from montecarlo_brdf.report.findings import Finding, Report, Result, worst
+from montecarlo_brdf.report.judge import CONFIRMING_REPLICATES, LEVEL, Opinion, decide, judged
+from montecarlo_brdf.report.looks import FIRST_LOOK, GROWTH, looks
+from montecarlo_brdf.statistics import Estimate
+
+PLAN = Plan(samples=1 << 20)
+Measure = Callable[[Plan], list[Measurement]]
+
+
+def estimate(mean: float, stderr: float, plan: Plan) -> Estimate:
+    means = (mean,) * plan.replicates
+    return Estimate(mean, stderr, plan.samples, means, mean * mean, mean)
+
+
+def steady(mean: float, stderr: float, unfit: str | None = None, name: str = "one") -> Measure:
+    """An estimator that always says the same, with an error that falls as 1/sqrt(n)."""
+
+    def measure(plan: Plan) -> list[Measurement]:
+        error = stderr * math.sqrt(FIRST_LOOK / plan.samples)
+        return [Measurement(name, estimate(mean, error, plan), unfit)]
+
+    return measure
+
+
+def both(*measures: Measure) -> Measure:
+    return lambda plan: [m for measure in measures for m in measure(plan)]
+
+
+def claim(measure: Measure, bound: str = "equal", expected: float | None = 1.0) -> MeanClaim:
+    truth = None if expected is None else Reference(expected, 0.0, "closed form", "")
+    return MeanClaim("A", {}, bound, truth, 1e-3, measure)
+
+
+def test_inside_the_tolerance_passes_at_the_first_look() -> None:
+    finding = decide(claim(steady(1.0, 1e-5)), PLAN)
+    assert (finding.verdict, finding.samples) == ("pass", FIRST_LOOK)
+
+
+def test_outside_the_tolerance_fails() -> None:
+    for mean in (0.9, 1.1):
+        assert decide(claim(steady(mean, 1e-5)), PLAN).verdict == "fail"
+
+
+def test_a_bound_fails_only_above() -> None:
+    assert decide(claim(steady(0.5, 1e-5), "at most"), PLAN).verdict == "pass"
+    assert decide(claim(steady(1.1, 1e-5), "at most"), PLAN).verdict == "fail"
+
+
+def test_a_deviation_within_the_tolerance_is_no_failure_however_significant() -> None:
+    """A z-test against exactly 1 would refute this at 900 sigma."""
+    assert decide(claim(steady(1.0 + 9e-4, 1e-6)), PLAN).verdict == "pass"
+
+
+def test_an_error_bar_as_wide_as_the_tolerance_is_inconclusive() -> None:
+    finding = decide(claim(steady(1.0, 10.0)), PLAN)
+    assert (finding.verdict, finding.samples) == ("inconclusive", PLAN.samples)
+    assert finding.note is not None and "--samples" in finding.note
+
+
+def test_more_samples_decide() -> None:
+    at_first = decide(claim(steady(1.0, 2.5e-4)), PLAN._replace(samples=FIRST_LOOK))
+    in_the_end = decide(claim(steady(1.0, 2.5e-4)), PLAN)
+    assert (at_first.verdict, in_the_end.verdict) == ("inconclusive", "pass")
+
+
+def test_not_a_number_fails() -> None:
+    finding = decide(claim(steady(math.nan, math.nan)), PLAN)
+    assert finding.verdict == "fail"
+    assert finding.hint is not None and "not finite" in finding.hint
+    assert decide(claim(steady(math.nan, math.nan), "at most"), PLAN).verdict == "fail"
+
+
+def test_a_failure_that_a_fresh_stream_does_not_see_is_inconclusive() -> None:
+    def unlucky(plan: Plan) -> list[Measurement]:
+        first_stream = plan.seed == PLAN.seed
+        return [Measurement("one", estimate(1.1 if first_stream else 1.0, 1e-6, plan))]
+
+    assert decide(claim(unlucky), PLAN).verdict == "inconclusive"
+
+
+@pytest.mark.parametrize("points", ["sobol", "independent"])
+def test_confirmation_uses_other_points_more_replicates_and_a_fresh_seed(points: str) -> None:
+    plans: list[Plan] = []
+
+    def measure(plan: Plan) -> list[Measurement]:
+        plans.append(plan)
+        return [Measurement("one", estimate(1.1, 1e-6, plan))]
+
+    assert decide(claim(measure), PLAN._replace(points=points)).verdict == "fail"
+    first, fresh = plans
+    assert first.points == points != fresh.points
+    assert fresh.replicates == CONFIRMING_REPLICATES >= 64 > first.replicates
+    assert fresh.seed != first.seed and fresh.samples > first.samples
+
+
+def test_a_disclaimed_property_is_known_with_its_reason() -> None:
+    finding = decide(claim(steady(1.1, 1e-6)), PLAN, known="the paper never promised it")
+    assert (finding.verdict, finding.note) == ("known", "the paper never promised it")
+    assert decide(claim(steady(1.0, 1e-6)), PLAN, known="never promised").verdict == "pass"
+
+
+def test_an_unfit_estimator_neither_passes_nor_fails() -> None:
+    wrong = steady(5.0, 1e-9, unfit="a lobe that it hardly hits")
+    finding = decide(claim(both(steady(1.0, 1e-5), wrong)), PLAN)
+    assert finding.verdict == "pass"
+    assert finding.estimators[1]["not_used"] == "a lobe that it hardly hits"
+    alone = decide(claim(wrong), PLAN)
+    assert (alone.verdict, alone.note) == ("inconclusive", "a lobe that it hardly hits")
+
+
+def test_one_fit_estimator_that_refutes_is_enough() -> None:
+    measure = both(steady(1.0, 1e-6, name="right"), steady(1.1, 1e-6, name="wrong"))
+    finding = decide(claim(measure), PLAN)
+    assert (finding.verdict, finding.estimator, finding.value) == ("fail", "wrong", 1.1)
+
+
+def test_without_a_reference_estimators_are_held_against_each_other() -> None:
+    agree = both(steady(0.7, 1e-6), steady(0.7, 1e-5))
+    differ = both(steady(0.7, 1e-6), steady(0.8, 1e-5))
+    assert decide(claim(agree, expected=None), PLAN).verdict == "pass"
+    assert decide(claim(differ, expected=None), PLAN).verdict == "fail"
+
+
+def test_the_error_of_a_reference_counts() -> None:
+    vague = MeanClaim("A", {}, "equal", Reference(1.0, 0.2, "", ""), 1e-3, steady(1.1, 1e-6))
+    assert decide(vague, PLAN).verdict == "inconclusive"
+
+
+def test_looks_grow_and_end_at_what_is_allowed() -> None:
+    assert looks(1) == [1] and looks(FIRST_LOOK) == [FIRST_LOOK]
+    sizes = looks(1 << 22)
+    assert sizes[0] == FIRST_LOOK and sizes[-1] == 1 << 22
+    assert all(b <= GROWTH * a for a, b in zip(sizes, sizes[1:], strict=False))
+
+
+def test_all_looks_together_spend_less_than_the_level(monkeypatch: pytest.MonkeyPatch) -> None:
+    spent: list[float] = []
+
+    def spy(claim: MeanClaim, measurements: list[Measurement], level: float) -> list[Opinion]:
+        spent.append(level)
+        return judged(claim, measurements, level)
+
+    monkeypatch.setattr(judge, "judged", spy)
+    assert decide(claim(steady(1.0, 10.0)), PLAN).verdict == "inconclusive"
+    assert len(spent) == len(looks(PLAN.samples)) > 3
+    assert math.fsum(spent) < LEVEL
+
+
+def test_the_margin_is_that_of_students_t() -> None:
+    half = student.quantile(LEVEL / 2.0, 15) * 1e-5
+    for share, verdict in ((0.999, "inconclusive"), (1.001, "pass")):
+        m = steady(1.0 + 1e-3 - half * share, 1e-5)(PLAN._replace(samples=FIRST_LOOK))
+        assert judged(claim(steady(1, 1)), m, LEVEL)[0].verdict == verdict
+    for share, verdict in ((0.999, "inconclusive"), (1.001, "fail")):
+        m = steady(1.0 + 1e-3 + half * share, 1e-5)(PLAN._replace(samples=FIRST_LOOK))
+        assert judged(claim(steady(1, 1)), m, LEVEL)[0].verdict == verdict
+
+
+def test_the_level_is_shared_by_the_estimators() -> None:
+    m = steady(1.0, 1e-4)(PLAN)
+    alone = judged(claim(steady(1, 1)), m, 1e-9)[0].half_width
+    among_three = judged(claim(steady(1, 1)), m * 3, 3e-9)[0].half_width
+    assert alone == among_three
+
+
+def test_resolves_is_a_deviation_that_would_have_failed() -> None:
+    for error in (1e-6, 1e-5):
+        finding = decide(claim(steady(1.0, error)), PLAN)
+        assert finding.resolves is not None and finding.resolves > 1e-3
+        power = student.quantile(0.05, 15) * error  # shifted by what 5 % of all runs exceed
+        unlucky = 1.0 + finding.resolves - 0.999 * power
+        level = LEVEL / 2.0
+        m = steady(unlucky, error)(PLAN._replace(samples=FIRST_LOOK))
+        assert judged(claim(steady(1, 1)), m, level)[0].verdict == "fail"
+
+
+def report(*verdicts: str) -> Report:
+    findings = [Finding("A", {}, v, level=1e-9) for v in verdicts]
+    return Report("furnace", {}, [Result("m", {}, "furnace", findings)])
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "overall", "code"),
+    [
+        (("pass", "pass"), "pass", 0),
+        (("pass", "known", "skipped"), "pass", 0),
+        (("known",), "pass", 0),
+        ((), "pass", 0),
+        (("pass", "inconclusive"), "inconclusive", 3),
+        (("inconclusive", "fail", "pass"), "fail", 1),
+        (("fail", "error"), "error", 4),
+    ],
+)
+def test_a_run_is_as_bad_as_its_worst_finding(
+    verdicts: tuple[str, ...], overall: str, code: int
+) -> None:
+    assert (report(*verdicts).verdict, report(*verdicts).exit_code) == (overall, code)
+    assert report(*verdicts).level == pytest.approx(1e-9 * len(verdicts))
+
+
+def test_worst_of_nothing_is_skipped() -> None:
+    assert worst([]) == "skipped"
