@@ -172,12 +172,13 @@ def quadrature(
     the error is as large as it is, and the source begins with "not resolved".
     """
     places = [_place(w) for w in ((-wo[0], -wo[1], wo[2]), wo, *peaks)]
-    (one, first), (two, second) = (
-        _adapt(f, _first_cells(grid, places[1], places), cosine, 0.5 * tolerance, 0.5 * budget)
-        for grid in GRIDS
-    )
-    value = 0.5 * float(one[0] + two[0])
-    bound = float(max(one[1], two[1]) + abs(one[0] - two[0]) + ROUNDING * one[2])
+    with np.errstate(invalid="ignore", over="ignore"):  # f may be infinite: that is reported
+        (one, first), (two, second) = (
+            _adapt(f, _first_cells(grid, places[1], places), cosine, 0.5 * tolerance, 0.5 * budget)
+            for grid in GRIDS
+        )
+        value = 0.5 * float(one[0] + two[0])
+        bound = float(max(one[1], two[1]) + abs(one[0] - two[0]) + ROUNDING * one[2])
     if not math.isfinite(value + bound):
         return Truth(value, math.inf, KIND, "not resolved: f is not finite everywhere")
     source = f"adaptive quadrature, {first + second} evaluations"

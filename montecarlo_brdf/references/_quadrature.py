@@ -12,8 +12,8 @@ and t_max is the image of mu_i = 0. Both variables are logarithmic in the way th
     t = width sinh v.
 
 So lobes of any width and views at any distance from the horizon cost only logarithmically more
-nodes. Nothing here is shared with the charts of the Monte Carlo estimators. `quadrature` takes any f
-whatever, at a hundred times the cost.
+nodes. Nothing here is shared with the charts of the Monte Carlo estimators. `quadrature` takes any
+f whatever, at a hundred times the cost.
 """
 
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""References against the adaptive quadrature of vector formulas: other f, other chart, other rule."""
+"""References against adaptive quadrature of vector formulas: other f, other chart, other rule."""
 
 from functools import partial
 from typing import Any
@@ -11,7 +11,7 @@ from reference_data import cosine
 from montecarlo_brdf import references
 from montecarlo_brdf.references._quadrature import quadrature
 
-ANGLES = (0.0, 35.0, 60.0, 80.0, 89.9)
+ANGLES = (0.0, 55.0, 89.9)
 MASKINGS = ["smith", "separable", "walter", "kelemen", "implicit", "none"]
 MASKINGS += ["schlick_k_direct", "schlick_k_ibl"]
 
@@ -21,7 +21,7 @@ def agree(name: str, theta: float, f: Any, phi_o: float | None = None, **paramet
     azimuth = {} if phi_o is None else {"phi_o": phi_o}
     truth = references.albedo(name, mu, **parameters, **azimuth)
     assert truth is not None
-    other = quadrature(lambda wi: f(wi, wo), wo, tolerance=1e-9)
+    other = quadrature(lambda wi: f(wi, wo), wo, tolerance=1e-8, budget=2_000_000)
     assert truth.error <= 1e-10 * abs(truth.value)
     assert abs(truth.value - other.value) <= truth.error + other.error
     assert other.error <= 1e-6 * abs(other.value)
