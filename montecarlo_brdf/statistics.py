@@ -34,6 +34,7 @@ class Estimate(NamedTuple):
     replicates: tuple[float, ...]  # their means
     second_moment: float  # mean of x^2 over all samples
     largest: float  # largest sample
+    method: str = ""  # how it was estimated and why so, where that was chosen
 
     @property
     def dof(self) -> int:
@@ -86,18 +87,18 @@ def _pair(a: Moments, b: Moments) -> Moments:
 
 def estimate(replicates: Sequence[Moments]) -> Estimate:
     """The mean over equally large replicates and the standard error from their spread."""
-    means = tuple(m.mean for m in replicates)
+    means = [m.mean for m in replicates]
     count = len(means)
     mean = math.fsum(means) / count if all(map(math.isfinite, means)) else math.nan
-    spread = math.fsum((m - mean) ** 2 for m in means) if math.isfinite(mean) else math.nan
+    spread = math.fsum([(m - mean) ** 2 for m in means])
     stderr = math.sqrt(spread / (count * (count - 1))) if count > 1 else math.inf
-    floor = FLOOR * abs(mean)
-    total = merged(list(replicates))
+    squares = math.fsum([m.squares for m in replicates]) if math.isfinite(mean) else math.nan
+    each = replicates[0].count
     return Estimate(
         mean,
-        max(stderr, floor) if math.isfinite(mean) else math.nan,
-        int(total.count),
-        means,
-        total.squares / total.count + total.mean**2,
-        total.largest,
+        max(stderr, FLOOR * abs(mean)) if math.isfinite(mean) else math.nan,
+        int(count * each),
+        tuple(means),
+        squares / (count * each) + spread / count + mean * mean,
+        max([m.largest for m in replicates]),
     )

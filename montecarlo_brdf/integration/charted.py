@@ -12,6 +12,7 @@ from typing import Any
 from montecarlo_brdf.sampling import charts
 from montecarlo_brdf.sampling.charts import smooth_step
 from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.special import exp2, turn
 from montecarlo_brdf.vectors import Vec
 
 F: Any = None
@@ -113,13 +114,12 @@ def probed(wo: Vec, k: float) -> Vec:
     it by halves from both sides, 32 at equal angles."""
     ex, ey, so = charts.azimuth_of(wo)
     half = math.floor(0.5 * (k - 1.0))
-    sign = 2.0 * (k - 2.0 * half) - 3.0
-    mirrored = math.atan2(so, wo[2])
-    near = mirrored + sign * 0.25 * math.pi * 0.5**half
-    even = sign * (half - 15.5) * math.pi / 33.0  # half is 16 to 31 here
-    angle = mirrored if k < 1.0 else (near if k < 33.0 else even)
-    s = math.sin(angle)
-    return -s * ex, -s * ey, math.cos(angle)
+    side = 2.0 * (k - 2.0 * half) - 3.0 if k > 0.0 else 0.0
+    near = k < 33.0
+    away = 0.125 * exp2(-half) if near else (half - 15.5) / 66.0  # of a turn
+    c, s = turn(0.5 + side * away)
+    sin, cos = (so * c + wo[2] * s, wo[2] * c - so * s) if near else (s, c)
+    return -sin * ex, -sin * ey, cos
 
 
 def seen_half_vector(u: Any, fixed: Any, p: Any) -> float:
@@ -143,3 +143,10 @@ def seen_cosine(u: Any, fixed: Any, p: Any) -> float:
     wo = (fixed[0], fixed[1], fixed[2])
     wi = probed(wo, u[0])
     return 1.875 * math.pi * F(wo, wi, p) if wi[2] > 0.0 else 0.0
+
+
+def seen_panels(u: Any, fixed: Any, p: Any) -> float:
+    """The largest value at a probed direction of `albedo_panels`, with both steps at their steepest."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi = probed(wo, u[0])
+    return 1.875 * 1.875 * math.pi * F(wo, wi, p) if wi[2] > 0.0 else 0.0

@@ -37,6 +37,7 @@ class Plan(NamedTuple):
     seed: int = 0
     threads: int = 1
     progress: work.Progress | None = None
+    target_error: float | None = None  # relative; None: just the samples asked for
 
 
 def check_samples(samples: Any) -> int:
@@ -72,7 +73,7 @@ def samplers_of(model: Model, quantity: str = "albedo") -> tuple[str, ...]:
 def directional_albedo(
     model: Model,
     p: Any,
-    theta_o_deg: float,
+    theta_o_deg: float | Sequence[float],
     *,
     phi_o_deg: float = 0.0,
     sampler: str = "cosine",
@@ -81,18 +82,39 @@ def directional_albedo(
     seed: int = 0,
     replicates: int = REPLICATES,
     threads: int = 1,
+    target_error: float | None = None,
+    method: str | None = None,
 ) -> Any:
     """Directional albedo A(wo) = int f cos(theta_i) dwi, with its error bar.
 
     theta_o_deg, phi_o_deg: direction of the viewer in degrees, theta in [0, 90).
     sampler: "uniform", "cosine", "own" or a chart that fits the model ("half_vector", "mirror",
     "panels"); points: "independent", "stratified", "sobol" or "lattice"; samples: the total over
-    all replicates. Returns an Estimate, or a list of one per channel for a colour.
-    Raises UserError for a bad value, ModelError if the model does not compile or raises.
+    all replicates. target_error: take as many samples as needed until the 99 % half-width is below
+    this relative error, and choose sampler and points (method "auto", told in the estimate's
+    `method`; "given" keeps sampler and points). method "auto" alone chooses for `samples`.
+    Returns an Estimate; a list of one per channel for a colour; for a list of angles or of
+    parameter sets a list of that. Raises UserError for a bad value, ModelError if the model does
+    not compile or raises.
     """
-    plan = Plan(points, samples, replicates, seed, threads)
+    if isinstance(p, list) or isinstance(theta_o_deg, (list, tuple)):
+        rest = {k: v for k, v in locals().items() if k not in ("model", "p", "theta_o_deg")}
+        return _each(directional_albedo, model, p, theta_o_deg, rest)
+    plan = Plan(points, samples, replicates, seed, threads, None, target_error)
     wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
-    return _one(model, p, "albedo", wo, sampler, plan)
+    if target_error is None and method is None:
+        return _one(model, p, "albedo", wo, sampler, plan)
+    from montecarlo_brdf.integration import adaptive
+
+    found = adaptive.asked(model, p, wo, plan, method or "auto", sampler)
+    return found[0] if len(found) == 1 else found
+
+
+def _each(function: Any, model: Model, p: Any, angles: Any, rest: dict[str, Any]) -> list[Any]:
+    """One result per parameter set, angle, or both (nested)."""
+    if isinstance(p, list):
+        return [function(model, one, angles, **rest) for one in p]
+    return [function(model, p, angle, **rest) for angle in angles]
 
 
 def reverse_albedo(

@@ -45,6 +45,8 @@ class Call(NamedTuple):
 
 def run(job: Job, threads: int = 1, progress: Progress | None = None) -> list[list[Moments]]:
     """Moments per result and replicate: run(job)[result][replicate]."""
+    if job.replicates * job.samples <= CHUNK:
+        return _whole(job, progress)
     stacks: list[list[list[tuple[int, Moments]]]] = [
         [[] for _ in range(job.replicates)] for _ in range(job.width)
     ]
@@ -57,6 +59,14 @@ def run(job: Job, threads: int = 1, progress: Progress | None = None) -> list[li
         if progress:
             progress(done / (job.replicates * job.samples))
     return [[_total(stack) for stack in row] for row in stacks]
+
+
+def _whole(job: Job, progress: Progress | None) -> list[list[Moments]]:
+    """A small job in a single call: its overhead is what adaptive estimates feel."""
+    states = _call(job, Call(0, job.replicates, 0, job.samples))
+    if progress:
+        progress(1.0)
+    return [states[k :: job.width] for k in range(job.width)]
 
 
 def calls(job: Job) -> Iterator[Call]:
@@ -81,16 +91,36 @@ def _outcomes(job: Job, threads: int) -> Iterable[list[Moments]]:
 
 
 def _call(job: Job, call: Call) -> list[Moments]:
-    key = job.key - (1 << 64) if job.key >= 1 << 63 else job.key
-    ints = (ctypes.c_int64 * 10)(
-        key, call.first, call.many, call.start, call.count, *job.shape
-    )
-    reals = (ctypes.c_double * len(job.reals))(*job.reals)
-    out = (ctypes.c_double * (STATE * job.width * call.many))()
-    status = job.kernel(ctypes.addressof(ints), ctypes.addressof(reals), ctypes.addressof(out))
-    if status != 0:
-        raise ModelError("the model raised an exception while it was sampled")
-    return [Moments(*out[i : i + STATE]) for i in range(0, len(out), STATE)]
+    ladder = Ladder(job.kernel, job.reals, job.width, job.key, call.many, call.first)
+    states = ladder.states(call.count, job.shape, call.start)
+    return [Moments(*states[i : i + STATE]) for i in range(0, len(states), STATE)]
+
+
+class Ladder:
+    """A stream of one kernel at one query, asked for ever more samples: arrays are made once."""
+
+    def __init__(
+        self,
+        kernel: NativeKernel,
+        reals: Sequence[float],
+        width: int,
+        key: int,
+        replicates: int,
+        first: int = 0,
+    ) -> None:
+        self._kernel = kernel
+        self._ints = (ctypes.c_int64 * 10)(key, first, replicates)  # ctypes wraps the key's sign
+        self._reals = (ctypes.c_double * len(reals))(*reals)
+        self._out = ctypes.c_double * (STATE * width * replicates)
+        self._at = ctypes.addressof(self._ints), ctypes.addressof(self._reals)
+
+    def states(self, count: int, shape: Shape = NONE, start: int = 0) -> list[float]:
+        """STATE numbers per replicate and result, of samples [start, start + count)."""
+        self._ints[3:] = (start, count, *shape)
+        out = self._out()
+        if self._kernel(*self._at, ctypes.addressof(out)) != 0:
+            raise ModelError("the model raised an exception while it was sampled")
+        return out[:]
 
 
 def _push(stack: list[tuple[int, Moments]], moments: Moments) -> None:

@@ -33,27 +33,41 @@ def azimuth_of(wo: Vec) -> Vec:
     return (wo[0] * inverse if s > 0.0 else 1.0), wo[1] * inverse, s
 
 
-def farthest(q: float, mu: float) -> float:
-    """tan(theta_h) of the half vector whose reflection of wo lies on the horizon.
+def farthest(q: float, mu: float) -> tuple[float, float]:
+    """tan(theta_h) of the half vector whose reflection of wo lies on the horizon, as a fraction.
 
     q = sin(theta_o) cos(phi_h), mu = cos(theta_o): the positive root of mu t^2 - 2 q t = mu.
     """
     m = abs(q) + math.sqrt(q * q + mu * mu)
-    return m / mu if q >= 0.0 else mu / m
+    return (m, mu) if q >= 0.0 else (mu, m)
 
 
-def radial(u: float, end: float, scale: float) -> tuple[float, float, float]:
-    """(t, dt/du, (end - t)/end): t in [0, end], half of the numbers within about `scale`."""
+def radial(
+    u: float, end: tuple[float, float], scale: float
+) -> tuple[float, float, float, float]:
+    """(t, dt/du, 1/(1 + t^2), (end - t)(t + 1/end)/(1 + t^2)) with t in [0, end].
+
+    t = s w end/(s + end (1 - w)): half of the numbers lie within about `scale` = s. One division
+    serves all: on vectors it costs as much as ten products.
+    """
     w, rest, slope = smooth_step(u)
-    below = 1.0 / (scale + end * rest)
-    t = scale * w * end * below
-    gap = (scale + end) * rest * below
-    return t, scale * end * (scale + end) * slope * below * below, gap
+    n, d = end
+    number, below = scale * w * n, scale * d + n * rest
+    square = below * below + number * number
+    inverse = 1.0 / (below * square * d)
+    inverse_square = inverse * below * d
+    inverse_below = inverse * square * d
+    t = number * inverse_below
+    steep = scale * n * (scale * d + n) * slope
+    cos2 = below * below * inverse_square
+    above = (scale * d + n) * rest * (number * n + d * below) * inverse * below
+    return t, steep * inverse_below * inverse_below, cos2, above
 
 
-def steepest(t: float, end: float, scale: float) -> float:
+def steepest(t: float, end: tuple[float, float], scale: float) -> float:
     """The largest that dt/du of `radial` can be at t: with the step at its steepest, 15/8."""
-    return 1.875 * end * (scale + t) * (scale + t) / (scale * (scale + end))
+    last = end[0] / end[1]
+    return 1.875 * last * (scale + t) * (scale + t) / (scale * (scale + last))
 
 
 def half_vector(wo: Vec, u1: float, u2: float, width: float) -> tuple[float, float, float, float]:
@@ -67,18 +81,15 @@ def half_vector(wo: Vec, u1: float, u2: float, width: float) -> tuple[float, flo
     mu = wo[2]
     c, s = turn(u2)
     stretch = 1.0 / math.sqrt(math.sqrt(mu))
-    squeeze = 1.0 / (stretch * stretch + (1.0 - stretch * stretch) * c * c)
-    root = math.sqrt(squeeze)
+    root = 1.0 / math.sqrt(stretch * stretch + (1.0 - stretch * stretch) * c * c)
     c, s = c * root, stretch * s * root
     q = so * c
-    end = farthest(q, mu)
-    t, dt, gap = radial(u1, end, 2.0 * width)
-    cos2 = 1.0 / (1.0 + t * t)
+    t, dt, cos2, above = radial(u1, farthest(q, mu), 2.0 * width)
     facing = q * t + mu  # h.v/h.n
     k = 2.0 * facing * cos2
-    x, y, z = k * t * c - so, k * t * s, mu * gap * (t * end + 1.0) * cos2
-    area = 8.0 * math.pi * facing * cos2 * cos2 * t * dt * stretch * squeeze
-    return x * ex - y * ey, x * ey + y * ex, z, area
+    x, y = k * t * c - so, k * t * s
+    area = 8.0 * math.pi * facing * cos2 * cos2 * t * dt * stretch * root * root
+    return x * ex - y * ey, x * ey + y * ex, mu * above, area
 
 
 def half_vector_area(wo: Vec, wi: Vec, width: float) -> float:
@@ -100,15 +111,12 @@ def mirror(wo: Vec, u1: float, u2: float, width: float) -> tuple[float, float, f
     The horizon lies where the half vector's does, with the same equation for t.
     """
     ex, ey, so = azimuth_of(wo)
-    mu = wo[2]
     c, s = turn(u2)
-    end = farthest(so * c, mu)
-    t, dt, gap = radial(u1, end, width)
-    cos2 = 1.0 / (1.0 + t * t)
-    along, up, across = (1.0 - t * t) * cos2, 2.0 * t * c * cos2, 2.0 * t * s * cos2
-    x, z = up * mu - along * so, mu * gap * (t * end + 1.0) * cos2
+    t, dt, cos2, above = radial(u1, farthest(so * c, wo[2]), width)
+    k = 2.0 * t * cos2
+    x, y = k * c * wo[2] - (1.0 - t * t) * cos2 * so, k * s
     area = 8.0 * math.pi * t * dt * cos2 * cos2
-    return x * ex - across * ey, x * ey + across * ex, z, area
+    return x * ex - y * ey, x * ey + y * ex, wo[2] * above, area
 
 
 def mirror_area(wo: Vec, wi: Vec, width: float) -> float:

@@ -6,6 +6,8 @@ falls like N^-2 and faster (Sloan & Joe 1994, "Lattice methods for multiple inte
 """
 from __future__ import annotations
 
+import functools
+
 from montecarlo_brdf.bits import u64, unit
 from montecarlo_brdf.sampling.keys import Point, Shape, axis_key
 
@@ -37,6 +39,7 @@ GENERATORS: dict[int, tuple[int, int, int, int]] = {
 }
 
 
+@functools.cache
 def generator(size: int) -> Shape:
     """(2^64/N, and that times the other components of z) for N = size, a power of 2."""
     step = (1 << 64) // size
