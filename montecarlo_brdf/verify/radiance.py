@@ -1,0 +1,113 @@
+"""The reflected radiance of a scene: estimated, held against its truth, and its energy judged."""
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from typing import Any
+
+from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
+from montecarlo_brdf.integration import probe
+from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.report.judge import decide
+from montecarlo_brdf.scene import claims as scene_claims
+from montecarlo_brdf.scene.plan import ScenePlan
+from montecarlo_brdf.scene.scene import Scene
+from montecarlo_brdf.scene.standard import Standard
+from montecarlo_brdf.scene.standard_lobes import mend
+from montecarlo_brdf.verify.common import (
+    SAMPLES,
+    Progress,
+    check_tolerance,
+    plan_settings,
+    planned,
+    reported,
+)
+
+WEIGHT_ROUNDING = 1e-12  # weights like 0.1 + 0.2 + 0.7 add up to 1 only within rounding
+
+
+def radiance(
+    scene: Scene,
+    *,
+    skip: bool = True,
+    energy: bool = True,
+    points: str = "sobol",
+    samples: int = SAMPLES,
+    seed: int = 0,
+    threads: int | None = None,
+    tolerance: float | None = None,
+    progress: Progress | None = None,
+) -> Report:
+    """Reflected radiance L_o of a scene at all its views, per channel, with verdicts.
+
+    scene: from `read_scene` or `scene_of`. skip: leave out what the scene does not need (never
+    changes a result beyond rounding and its error bar). energy: also judge A <= 1. samples: the
+    most that a claim may take. Raises UserError for a bad value, ModelError if a model fails.
+    """
+    sampling = planned(points, samples, seed, threads)
+    check_tolerance(tolerance)
+    started = time.perf_counter()
+    for lobe in scene_claims.as_lobes(scene).surface.lobes:  # type: ignore[union-attr]
+        for p in dict.fromkeys(lobe.sets):
+            probe.check(lobe.model, p)
+    plan = scene_claims.plan_of(scene, skip)
+    findings: list[Finding] = []
+    total = _count(scene, energy)
+    for claim in _claims(scene, plan, tolerance, skip, energy):
+        findings.append(decide(claim, sampling, _known(scene, claim)))
+        if progress:
+            progress(min(1.0, len(findings) / total))
+    settings = {
+        "theta_o_deg": list(scene.view.theta_o_deg),
+        "phi_o_deg": list(scene.view.phi_o_deg),
+        "skip": skip,
+        "tolerance": tolerance,
+        "plan": explained(plan, sampling),
+        **plan_settings(sampling),
+    }
+    result = Result(scene.name, {}, "radiance", findings)
+    return reported("radiance", settings, [result], started)
+
+
+def _claims(
+    scene: Scene, plan: ScenePlan, tolerance: float | None, skip: bool, energy: bool
+) -> Iterator[Claim]:
+    for k, total in enumerate(scene_claims.weight_sums(scene)):
+        where = {"channel": k} if scene.channels > 1 else {}
+        bound = Reference(1.0, 0.0, "bound", "lobes share the light that arrives")
+        exact = Exact(total, hint=None if total <= 1.0 else "reduce a weight")
+        yield ExactClaim("sum of weights <= 1", where, "at most", bound, WEIGHT_ROUNDING,
+                         lambda exact=exact: exact, property="weights")  # fmt: skip
+    yield from scene_claims.claims(scene, plan, tolerance)
+    if energy or scene.band:
+        furnace = scene_claims.plan_of(scene.under_constant_light(1.0), skip)
+        if energy:
+            yield from scene_claims.energy_claims(scene, furnace, tolerance)
+        yield from scene_claims.band_claims(scene, furnace, tolerance)
+
+
+def _count(scene: Scene, energy: bool) -> int:
+    thetas, phis = len(scene.view.theta_o_deg), len(scene.view.phi_o_deg)
+    return scene.channels * thetas * (phis + energy) + (thetas if scene.band else 0)
+
+
+def _known(scene: Scene, claim: Claim) -> str | None:
+    """Why a refuted claim is no surprise: nobody ever made it."""
+    if getattr(claim, "property", "") != "energy":
+        return None
+    if isinstance(scene.surface, Standard):
+        return f"the standard lighting equation does not conserve energy: {mend(scene.surface)}"
+    reasons = [lobe.model.disclaims.get("energy") for lobe in scene.surface.lobes if any(lobe.weights)]
+    return next((r for r in reasons if r), None)
+
+
+def explained(plan: ScenePlan, sampling: Plan) -> list[dict[str, Any]]:
+    """The plan as plain data, with the most samples that each line may save."""
+    views = len(set(plan.views.values()))
+    rows = []
+    for item in plan.items:
+        saved = 0 if item.evaluated else item.estimates * views * sampling.samples
+        decision = "evaluated" if item.evaluated else "skipped"
+        rows.append({"what": item.what, "decision": decision, "why": item.reason, "samples_saved": saved})
+    return rows
