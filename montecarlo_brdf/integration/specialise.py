@@ -93,8 +93,10 @@ class Fingerprint:
         elif isinstance(value, (tuple, list)):
             self._add_sequence(value)
         elif isinstance(value, (set, frozenset)):
+            self._text("set")
             self._add_sequence(sorted(value, key=repr))
         elif isinstance(value, dict):
+            self._text("dictionary")
             self._add_sequence(sorted(value.items(), key=repr))
         elif hasattr(value, "tobytes") and hasattr(value, "dtype"):
             self._text(f"array {value.dtype} {value.shape}")
