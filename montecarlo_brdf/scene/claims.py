@@ -32,7 +32,10 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 
 def plan_of(scene: Scene, skip: bool = True) -> ScenePlan:
     """The plan of a scene; of the standard lighting equation, that of its lobes."""
-    return planning.make(as_lobes(scene), skip)
+    plan = planning.make(as_lobes(scene), skip)
+    if any(scene.ambient):  # of the standard equation: it is part of what its lobes emit
+        plan = plan._replace(items=[i for i in plan.items if i.what != "ambient"])
+    return plan
 
 
 def as_lobes(scene: Scene) -> Scene:

@@ -1,12 +1,12 @@
 """A scene from a TOML file, every value checked; docs/scenes.md lists all keys."""
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.scene.image import read_image
 from montecarlo_brdf.scene.lights import Directional, Light, Point
 from montecarlo_brdf.scene.scene import Band, Scene, View
 from montecarlo_brdf.scene.sky_tables import read_sky
@@ -16,9 +16,6 @@ from montecarlo_brdf.scene.surface import Surface, lobes_of, spread
 from montecarlo_brdf.scene.toml import Table, parse
 
 Colour = float | tuple[float, ...]
-MOST_LIGHTS = 100_000
-
-__all__ = ["read_image", "read_scene"]
 
 
 def read_scene(path: str | Path, **parameters: Any) -> Scene:
@@ -94,24 +91,30 @@ def _model(table: Table, parameters: dict[str, Any]) -> tuple[Any, Any]:
         model = loading.load(table.text_of("model"))
     except UserError as error:
         raise table.error(str(error), "model") from error
-    names = [*model.choices, *(model.labels.get(n, n) for n in model.Params._fields)]  # type: ignore[attr-defined]
-    given: dict[str, Any] = {}
     own = table.table("parameters", {})
-    for source in (table, own):
-        for name in names:
-            if name in source.data:
-                picked = name in model.choices
-                given[name] = source.text_of(name) if picked else source.colour(name, low=float("-inf"))
-    table._known |= dict.fromkeys(names)
-    own._known |= dict.fromkeys(names)
+    picks = {c: source.text_of(c) for c in model.choices for source in (table, own) if c in source.data}
+    try:
+        model = model.variant(**picks) if picks else model
+        given = _given(model, table, own)
+        p = model.parameters(**{**given, **parameters})
+    except UserError as error:
+        if str(error).startswith(str(table.file)):
+            raise
+        key = next((k for k in (*picks, *table.data) if f"{k} of model" in str(error) or f"no {k} " in str(error)), "model")
+        raise table.error(str(error), key) from error
     own.done()
     if table.path[-1] != "surface":
         table.done()
-    try:
-        return model, model.parameters(**{**given, **parameters})
-    except UserError as error:
-        key = next((k for k in given if str(error).startswith((k, f"no {k}"))), "model")
-        raise table.error(str(error), key) from error
+    return model, p
+
+
+def _given(model: Any, table: Table, own: Table) -> dict[str, Any]:
+    """Parameters in the table itself or in its `parameters`."""
+    names = [model.labels.get(n, n) for n in model.Params._fields]
+    for source in (table, own):
+        source.know(*names, *model.choices)
+    found = ((n, source) for n in names for source in (table, own) if n in source.data)
+    return {n: source.colour(n, low=-math.inf) for n, source in found}
 
 
 def _standard(table: Table) -> Standard:

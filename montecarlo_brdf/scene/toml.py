@@ -94,6 +94,10 @@ class Table:
             raise self.error(f"{self.title()} needs {key!r}")
         return default
 
+    def know(self, *keys: str) -> None:
+        """Keys that may stand here."""
+        self._known |= dict.fromkeys(keys)
+
     def title(self) -> str:
         """'[surface]', '[[lights]] 2', 'the scene'."""
         if not self.path:
