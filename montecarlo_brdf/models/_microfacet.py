@@ -48,9 +48,16 @@ def stretched(w: Vec, alpha: float) -> float:
     return math.sqrt(w[2] * w[2] + alpha * alpha * (w[0] * w[0] + w[1] * w[1]))
 
 
-def ggx_visibility(wo: Vec, wi: Vec, alpha: float) -> float:
-    """G/(4 mu_i mu_o), height-correlated Smith (Heitz 2014, eq. 99): finite at the horizon."""
-    return 0.5 / (wi[2] * stretched(wo, alpha) + wo[2] * stretched(wi, alpha))
+def ggx_reflection(h: Vec, wo: Vec, wi: Vec, alpha: float) -> float:
+    """D G/(4 mu_i mu_o) with height-correlated Smith masking (Heitz 2014, eq. 99), as one quotient.
+
+    G/(4 mu_i mu_o) = 1/(2 (mu_i S_o + mu_o S_i)) is finite at the horizon.
+    """
+    t2, z, l2 = h
+    a2 = alpha * alpha
+    q = a2 * z * z + t2
+    masked = wi[2] * stretched(wo, alpha) + wo[2] * stretched(wi, alpha)
+    return 0.5 / math.pi * a2 * l2 * l2 / (q * q * masked)
 
 
 def schlick(h: Vec, f0: float) -> float:

@@ -16,8 +16,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from montecarlo_brdf.models._microfacet import (
-    ggx_density,
-    ggx_visibility,
+    ggx_reflection,
     ggx_visible_pdf,
     half_sums,
     sample_visible,
@@ -39,7 +38,7 @@ lobe = ("half vector", lambda p: p.alpha)
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """F D G/(4 mu_i mu_o)."""
     h = half_sums(wo, wi)
-    return schlick(h, p.f0) * ggx_density(h, p.alpha) * ggx_visibility(wo, wi, p.alpha)
+    return schlick(h, p.f0) * ggx_reflection(h, wo, wi, p.alpha)
 
 
 def sample(wo: Vec, u: Vec, p: Params) -> Vec:

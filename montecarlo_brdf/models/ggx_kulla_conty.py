@@ -16,8 +16,7 @@ from typing import NamedTuple
 
 from montecarlo_brdf.models._energy import Table, average_lost, lost, table
 from montecarlo_brdf.models._microfacet import (
-    ggx_density,
-    ggx_visibility,
+    ggx_reflection,
     ggx_visible_pdf,
     half_sums,
     sample_visible,
@@ -50,7 +49,7 @@ def prepare(p: Params) -> Table:
 def f(wo: Vec, wi: Vec, p: Table) -> float:
     """One reflection, and all the others."""
     h = half_sums(wo, wi)
-    single = schlick(h, p.f0) * ggx_density(h, p.alpha) * ggx_visibility(wo, wi, p.alpha)
+    single = schlick(h, p.f0) * ggx_reflection(h, wo, wi, p.alpha)
     return single + p.factor * lost(wi[2], p) * lost(wo[2], p)
 
 
