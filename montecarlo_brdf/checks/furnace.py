@@ -23,8 +23,10 @@ from montecarlo_brdf.checks.claim import (
     Measurement,
     Reference,
 )
+from montecarlo_brdf.integration import adaptive
 from montecarlo_brdf.integration.estimators import Plan, estimates, integrand_name, samplers_of
 from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.vectors import Vec
 
 NAME = "furnace"
 QUESTION = "how much of a constant light is reflected, and is that what theory says?"
@@ -105,13 +107,20 @@ def of_channel(measured: Any, k: int, plan: Plan) -> list[Measurement]:
 
 
 def _and_quadrature(case: Case, one: Any, theta: float, source: Any, plan: Plan) -> list[Measurement]:
-    """What samples say and what a quadrature of f says, which resolves any lobe."""
+    """What samples say and what a quadrature of f says, which resolves any lobe.
+
+    With a target the samples resolve it too, and a quadrature would take longer than they do.
+    """
+    if plan.target_error is not None:
+        return list(source(plan))
     return [*source(plan), truth.deterministic(case.model, one, case.wo(theta))]
 
 
 def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:
     """All estimators of A in one pass over the points, per channel."""
     model, wo = case.model, case.wo(theta)
+    if plan.target_error is not None or plan.method == "auto":
+        return _adaptive(model, case.p, wo, plan)
     chosen = [s for s in samplers_of(model) if case.samplers is None or s in case.samplers]
     names = [integrand_name(model, "albedo", s) for s in chosen]
     blind = [s for s in chosen if s in fitness.SCALE]
@@ -129,3 +138,10 @@ def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:
             ]
         )
     return result
+
+
+def _adaptive(model: Model, p: Any, wo: Vec, plan: Plan) -> list[list[Measurement]]:
+    """The method that fits best, per channel; unfit if it did not reach the error asked for."""
+    found, reached = adaptive.albedo(model, p, wo, plan)
+    unfit = None if reached else f"did not reach a relative error of {plan.target_error:g}"
+    return [[Measurement(e.method.partition(":")[0], e, unfit)] for e in found]

@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from montecarlo_brdf.cli import _options
+from montecarlo_brdf.cli._values import Number
 
 EPILOG = """\b
 Examples:
@@ -14,6 +15,7 @@ Examples:
   brdf-check furnace --model lambert_unnormalised -p c=0.5
   brdf-check furnace --model my_brdf.py --theta-o 0:85:18 --plot albedo.png
   brdf-check furnace --model lambert -p albedo=0.9/0.5/0.1 --format json
+  brdf-check furnace --model ggx -p alpha=0.05 --target-error 1e-6
 """
 
 
@@ -35,6 +37,12 @@ Examples:
     metavar="NAMES",
     help="all, or some of uniform, cosine, own. [--sampler cosine,own]",
 )
+@click.option("--target-error", type=Number("in [1e-13, 1)"), default=None,
+              help="Sample until the 99 % interval of A is as narrow, relative to A. "
+              "[--target-error 1e-6]")  # fmt: skip
+@click.option("--method", default=None, metavar="NAME",
+              help="auto chooses chart or sampler and points for the model and tells why; given keeps "
+              "--sampler and --points. [--method auto]  [default: auto with --target-error]")  # fmt: skip
 @_options.sampling_options
 @_options.output_options
 @click.option(
@@ -72,6 +80,8 @@ def command(**options: Any) -> int:
             seed=_options.seed_of(options["seed"]),
             threads=options["threads"],
             tolerance=options["tolerance"],
+            target_error=options["target_error"],
+            method=options["method"],
             progress=update,
             curve=bool(options["plot"] or options["export_json"]),
         )

@@ -79,31 +79,40 @@ def check_target(target: Any) -> float:
     return number
 
 
-def asked(
-    model: Model, p: Any, wo: Vec, plan: Plan, method: str, sampler: str
-) -> list[Estimate]:
-    """What `directional_albedo` does with a target or a method."""
-    if method not in ("auto", "given"):
-        raise UserError(unknown("method", method, ("auto", "given")))
+def albedo(
+    model: Model, p: Any, wo: Vec, plan: Plan, sampler: str = "cosine"
+) -> tuple[list[Estimate], bool]:
+    """Directional albedo per channel by a plan with a target or a method, and whether it got there.
+
+    `sampler` is used with plan.method "given" only.
+    """
+    check_plan(plan)
     model = model.of(p)
     if plan.target_error is not None:
-        plan = plan._replace(target_error=check_target(plan.target_error))
-        return albedo(model, p, wo, plan, _given(model, sampler, plan) if method == "given" else None)
+        given = _given(model, sampler, plan.points) if plan.method == "given" else None
+        return _until(model, p, wo, plan, given)
     best = suited(model, p, wo, plan)
-    rows = estimates(
-        model, p, wo, [integrand_name(model, "albedo", best.sampler)],
-        plan._replace(points=best.points), ("albedo", best.sampler),
-    )  # fmt: skip
-    return [row[0]._replace(method=told(best, [])) for row in rows]
+    names = [integrand_name(model, "albedo", best.sampler)]
+    fixed = plan._replace(points=best.points)
+    rows = estimates(model, p, wo, names, fixed, ("albedo", best.sampler))
+    return [row[0]._replace(method=told(best, [])) for row in rows], True
 
 
-def _given(model: Model, sampler: str, plan: Plan) -> Method:
+def check_plan(plan: Plan) -> None:
+    """Raise UserError for a target or a method that is not allowed."""
+    if plan.method not in ("auto", "given"):
+        raise UserError(unknown("method", plan.method, ("auto", "given")))
+    if plan.target_error is not None:
+        check_target(plan.target_error)
+
+
+def _given(model: Model, sampler: str, points: str) -> Method:
     offered = (*samplers_of(model), *charts_of(model))
     if sampler not in offered:
         raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
-    if plan.points not in SETS:
-        raise UserError(unknown("point set", plan.points, SETS))
-    return Method(sampler, plan.points, "as given")
+    if points not in SETS:
+        raise UserError(unknown("point set", points, SETS))
+    return Method(sampler, points, "as given")
 
 
 @functools.lru_cache(maxsize=1024)
@@ -120,17 +129,18 @@ def methods(model: Model) -> list[Method]:
     return [*found, Method("cosine", "sobol", "nothing better fits")]
 
 
-def albedo(model: Model, p: Any, wo: Vec, plan: Plan, picked: Method | None = None) -> list[Estimate]:
-    """Adaptive directional albedo, one Estimate per channel; plan.target_error is relative."""
+def _until(
+    model: Model, p: Any, wo: Vec, plan: Plan, picked: Method | None
+) -> tuple[list[Estimate], bool]:
+    """Try methods until one reaches the target; the last word is the last one's."""
     rejected: list[str] = []
     for method in (picked,) if picked else methods(model):
-        setting = prepare(model, p, type(p), method)
-        climb = _climb(setting, wo, plan, final=picked is not None)
+        climb = _climb(prepare(model, p, type(p), method), wo, plan, final=picked is not None)
         if climb.reached:
             break
         rejected.append(f"{method.sampler} x {method.points} {climb.complaint}")
     story = told(method, rejected)
-    return [estimate(row)._replace(method=story) for row in climb.rows]
+    return [estimate(row)._replace(method=story) for row in climb.rows], climb.reached
 
 
 def told(method: Method, rejected: Sequence[str]) -> str:

@@ -38,6 +38,7 @@ class Plan(NamedTuple):
     threads: int = 1
     progress: work.Progress | None = None
     target_error: float | None = None  # relative; None: just the samples asked for
+    method: str = "given"  # or "auto": sampler and points are chosen, also with a target
 
 
 def check_samples(samples: Any) -> int:
@@ -100,13 +101,14 @@ def directional_albedo(
     if isinstance(p, list) or isinstance(theta_o_deg, (list, tuple)):
         rest = {k: v for k, v in locals().items() if k not in ("model", "p", "theta_o_deg")}
         return _each(directional_albedo, model, p, theta_o_deg, rest)
-    plan = Plan(points, samples, replicates, seed, threads, None, target_error)
+    chosen = method or ("given" if target_error is None else "auto")
+    plan = Plan(points, samples, replicates, seed, threads, None, target_error, chosen)
     wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
-    if target_error is None and method is None:
+    if target_error is None and chosen == "given":
         return _one(model, p, "albedo", wo, sampler, plan)
     from montecarlo_brdf.integration import adaptive
 
-    found = adaptive.asked(model, p, wo, plan, method or "auto", sampler)
+    found, _ = adaptive.albedo(model, p, wo, plan, sampler)
     return found[0] if len(found) == 1 else found
 
 

@@ -112,6 +112,8 @@ def confirmed(claim: MeanClaim, plan: Plan, level: float) -> bool:
         replicates=CONFIRMING_REPLICATES,
         samples=GROWTH * plan.samples,
         seed=plan.seed + FRESH,
+        target_error=None,
+        method="given",
     )
     return any(o.verdict == "fail" for o in judged(claim, claim.measure(fresh), level))
 
@@ -142,7 +144,7 @@ def _finding(
         if expected
         else None,
         estimators=[_row(o) for o in opinions],
-        note=known if verdict == "known" else _note(verdict, opinions),
+        note=known if verdict == "known" else _note(verdict, opinions) or e.method or None,
         hint=hint(claim, e.mean) if verdict in ("fail", "known") else None,
         reproduce=claim.reproduce or None,
     )

@@ -57,7 +57,10 @@ def reported(
 
 def plan_settings(plan: Plan) -> dict[str, Any]:
     """What the results depend on; the number of threads is not among it."""
-    return {"points": plan.points, "samples": plan.samples, "seed": plan.seed}
+    settings = {"points": plan.points, "samples": plan.samples, "seed": plan.seed}
+    if plan.target_error is not None or plan.method != "given":
+        settings |= {"target_error": plan.target_error, "method": plan.method}
+    return settings
 
 
 def planned(points: str, samples: int, seed: int, threads: int | None) -> Plan:

@@ -7,7 +7,7 @@ from typing import Any
 
 from montecarlo_brdf.checks import furnace as furnace_check
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration import probe
+from montecarlo_brdf.integration import adaptive, probe
 from montecarlo_brdf.integration.estimators import check_theta
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Report, Result
@@ -39,6 +39,8 @@ def furnace(
     seed: int = 0,
     threads: int | None = None,
     tolerance: float | None = None,
+    target_error: float | None = None,
+    method: str | None = None,
     progress: Progress | None = None,
     curve: bool = False,
 ) -> Report:
@@ -47,13 +49,19 @@ def furnace(
     p: a parameter set, a list of them, or None for the model's defaults. theta_o_deg: angles in
     [0, 90) degrees. sampler: "all" or some of "uniform", "cosine", "own". samples: the most that a
     claim may take; it stops sooner where it is decided. tolerance: relative for A, absolute for
-    A <= 1. curve: add the reference at every degree, for pictures. Raises UserError for a bad value, ModelError if the model does not run.
+    A <= 1. target_error: relative; A is sampled until its 99 % interval is as narrow, by the method
+    that fits the model best (method "auto", which without a target chooses for `samples`). curve:
+    add the reference at every degree, for pictures. Raises UserError for a bad value, ModelError if
+    the model does not run.
     """
     sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
     angles = theta_o_deg if isinstance(theta_o_deg, (list, tuple)) else [theta_o_deg]
     angles = [check_theta(a) for a in angles]
     chosen = chosen_samplers(model, sampler)
+    chosen_method = method or ("given" if target_error is None else "auto")
     plan = planned(points, samples, seed, threads)
+    plan = plan._replace(target_error=target_error, method=chosen_method)
+    adaptive.check_plan(plan)
     check_tolerance(tolerance)
     started = time.perf_counter()
     results = []
