@@ -9,8 +9,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from hypothesis import settings
 
 from montecarlo_brdf.cli import run
+
+#: No deadlines: a busy machine is no error. In CI the same cases every time.
+settings.register_profile("ours", deadline=None, derandomize=bool(os.environ.get("CI")))
+settings.load_profile("ours")
 
 
 class Outcome(NamedTuple):

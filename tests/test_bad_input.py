@@ -8,9 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from conftest import Outcome
 
 from montecarlo_brdf.report import write
-from conftest import Outcome
 
 USAGE, MODEL, OUTPUT = 2, 4, 5
 Command = Callable[..., Outcome]

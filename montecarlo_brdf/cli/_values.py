@@ -93,7 +93,7 @@ class Number(click.ParamType):
 
     name = "number"
 
-    def __init__(self, allowed: str) -> None:
+    def __init__(self, allowed: str = "that is finite") -> None:
         self.allowed = allowed
 
     def convert(self, value: Any, param: Any, ctx: Any) -> float:

@@ -1,0 +1,89 @@
+"""Write the generated blocks of README.md, or check them with --check (exit code 1 if one is old).
+
+A block stands between `<!-- run: COMMAND -->` or `<!-- commands -->` and `<!-- end -->`. Commands run
+in an empty folder with the files that README itself shows (`<!-- file: NAME -->`).
+"""
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+README = Path(__file__).parent.parent / "README.md"
+BLOCK = re.compile(r"(<!-- (run|commands):? ?(.*?) ?-->\n)(.*?)(<!-- end -->)", re.DOTALL)
+FILE = re.compile(r"<!-- file: (\S+) -->\n```\w*\n(.*?)```", re.DOTALL)
+#: An estimate and the spaces after it: the last digits are those of the machine.
+ESTIMATE = re.compile(r"(\d\.\d{12})\d*\(\d+\) *")
+PLAIN = {"COLUMNS": "80", "NO_COLOR": "1", "PYTHONUTF8": "1"}
+
+
+def updated(text: str) -> str:
+    """The text with every block written anew."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in FILE.findall(text):
+            Path(folder, name).write_text(content, encoding="utf-8")
+
+        def block(match: re.Match[str]) -> str:
+            head, kind, command, _, end = match.groups()
+            body = shown(command, folder) if kind == "run" else table_of_commands()
+            return f"{head}{body}{end}"
+
+        return BLOCK.sub(block, text)
+
+
+def shown(command: str, folder: str) -> str:
+    """A command with its output and, unless it is 0, its exit code, as a terminal would show it."""
+    done = run(shlex.split(command)[1:], folder)
+    lines = [f"$ {command}", *done.stdout.splitlines(), *done.stderr.splitlines()]
+    lines += ["$ echo $?", str(done.returncode)] if done.returncode else []
+    return "```console\n" + "".join(f"{line.rstrip()}\n" for line in lines) + "```\n"
+
+
+def run(arguments: list[str], folder: str) -> subprocess.CompletedProcess[str]:
+    """brdf-check in a process of its own, not at a terminal."""
+    return subprocess.run(
+        [sys.executable, "-m", "montecarlo_brdf", *arguments],
+        cwd=folder,
+        env={**os.environ, **PLAIN},
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+
+
+def table_of_commands() -> str:
+    """One row per command with its short help."""
+    import click
+
+    from montecarlo_brdf.cli import commands
+
+    context = click.Context(commands)
+    rows = ["| command | does |", "|---|---|"]
+    for name in commands.list_commands(context):
+        command = commands.get_command(context, name)
+        assert command is not None
+        rows.append(f"| `brdf-check {name}` | {command.get_short_help_str(120)} |")
+    return "\n".join(rows) + "\n"
+
+
+def same(old: str, new: str) -> bool:
+    """Whether two texts say the same, up to the rounding of estimates."""
+    return ESTIMATE.sub(r"\1 ", old) == ESTIMATE.sub(r"\1 ", new)
+
+
+def main(arguments: list[str]) -> int:
+    """Write or check README.md."""
+    old = README.read_text(encoding="utf-8")
+    new = updated(old)
+    if "--check" in arguments:
+        return 0 if same(old, new) else 1
+    README.write_text(new, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
