@@ -18,12 +18,12 @@ MOST_SERIES = len(COLOURS)
 def plot(report: dict[str, Any], path: Path) -> None:
     """Draw a report into a PNG, SVG or PDF file."""
     kind = kind_of(path)
-    if report.get("command") != "furnace":
+    if report.get("command") not in FIGURES:
         raise UserError(f"there is no picture for a report of {report.get('command')!r}")
     import matplotlib
 
     matplotlib.use("Agg")
-    figure = albedo_figure(report)
+    figure = FIGURES[report["command"]](report)
     content = io.BytesIO()
     # a fixed hash salt and no date: equal reports give equal files
     with matplotlib.rc_context({"svg.hashsalt": "montecarlo_brdf"}):
@@ -117,3 +117,18 @@ def _error(axes: Any, one: dict[str, Any], colour: str, marker: str) -> None:
     axes.plot(theta, [max(f["stderr"], floor) for f in rows], color=colour, linewidth=1.0, label="stderr")
     axes.plot(theta, [f["tolerance"] for f in rows], color=colour, linewidth=0.8,
               linestyle=(0, (4, 3)), label="tolerance")  # fmt: skip
+
+
+def stress_figure(report: dict[str, Any]) -> Any:
+    """Heat maps of the error over angle and roughness."""
+    from matplotlib.figure import Figure
+
+    from montecarlo_brdf.report import heat
+
+    figure = Figure(figsize=(12.0, 6.5), layout="constrained")
+    heat.draw(report, figure)
+    return figure
+
+
+#: What is drawn of the report of each command.
+FIGURES = {"furnace": albedo_figure, "stress": stress_figure}

@@ -17,6 +17,7 @@ class Errors(NamedTuple):
     total: Any  # |value - truth|/|truth| beyond eps times the largest |f| of the same wo
     own: Any  # the same beyond what one rounding of the inputs does to the truth
     kinds: dict[str, Any]  # "nan", "inf", "negative", "flushed": conditions per point
+    low: Any  # directions lower than any angle of the type
 
 
 def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
@@ -28,34 +29,41 @@ def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
     truth = wide.f(wo, wi, q)
     conditioning = _conditioning(wide, points, q, truth, type_)
     with np.errstate(all="ignore"):
-        return judged(value, truth, conditioning, points.group, type_, truth_type)
+        return judged(value, truth, conditioning, points, type_, truth_type)
+
+
+def lower_than_any_angle(points: Any, type_: Arithmetic) -> Any:
+    """Pairs with a cosine far below eps/4, the smallest of any angle of the type.
+
+    There products leave the range of normal numbers, and with it their digits: no error is judged.
+    """
+    return np.minimum(points.wo[:, 2], points.wi[:, 2]).astype(np.float64) < type_.eps**2
 
 
 def judged(
-    value: Any, truth: Any, conditioning: Any, group: Any, type_: Arithmetic, truth_type: Arithmetic
+    value: Any, truth: Any, conditioning: Any, points: Any, type_: Arithmetic, truth_type: Arithmetic
 ) -> Errors:
     """The relative errors of values against their truth."""
-    shown = truth_type.array(value)
-    size = np.abs(truth)
-    real = _finite(truth)
-    largest = largest_of(np.where(real, size, truth_type.array(0.0)), group)
-    off = np.abs(shown - truth)
+    shown, size, low = truth_type.array(value), np.abs(truth), lower_than_any_angle(points, type_)
+    real = _finite(truth) & ~low
+    largest = largest_of(np.where(real, size, truth_type.array(0.0)), points.group)
     granted = truth_type.array(type_.eps) * largest + truth_type.array(type_.least)
+    off = np.abs(shown - truth) - granted
     kinds = {
         "nan": _is_nan(shown),
         "inf": _is_inf(shown) & (size <= type_.most),
-        "negative": (shown < 0) & (truth >= 0),
-        "flushed": (shown == 0) & (size >= type_.tiny),
+        "negative": (shown < 0) & (truth >= 0) & (-shown > granted),
+        "flushed": (shown == 0) & (size >= type_.tiny) & (off > 2 * conditioning) & ~low,
     }
-    beyond = _double((off - granted) / size), _double((off - granted - 2 * conditioning) / size)
-    total, own = (_clean(b, kinds, real & (size <= type_.most) & (size > 0)) for b in beyond)
-    own = np.where(_double(conditioning) >= _double(size) / 4, 0.0, own)  # no digit is determined
-    return Errors(value, truth, total, np.minimum(own, total), kinds)
-
-
-def _clean(relative: Any, kinds: dict[str, Any], representable: Any) -> Any:
-    relative = np.where(representable & (relative > 0), relative, 0.0)
-    return np.where(kinds["inf"] | (kinds["nan"] & representable), np.inf, relative)
+    broken = (kinds["nan"] | kinds["inf"]) & ~low
+    counted = real & (size <= type_.most) & (size > 0)
+    size = np.where(counted, size, truth_type.array(1.0))
+    total = np.where(counted & (off > 0), _double(off / size), 0.0)
+    own = np.where(counted & (off > 2 * conditioning), _double((off - 2 * conditioning) / size), 0.0)
+    own = np.where(_double(conditioning / size) >= 0.25, 0.0, own)  # no digit is determined
+    return Errors(
+        value, truth, np.where(broken, np.inf, total), np.where(broken, np.inf, own), kinds, low
+    )
 
 
 def _conditioning(wide: Rung, points: Any, q: Any, truth: Any, narrow: Arithmetic) -> Any:

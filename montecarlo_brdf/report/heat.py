@@ -1,0 +1,41 @@
+"""Heat maps of a stress report: where in angle and roughness the digits go."""
+from __future__ import annotations
+
+from typing import Any
+
+FLOOR = 1e-17  # no error has no place on a log scale
+
+
+def draw(report: dict[str, Any], figure: Any) -> None:
+    """One map per model and precision, (theta_o, roughness or exponent) against worst error."""
+    maps = [m for result in report["results"] for m in _maps(result)]
+    columns = max(1, min(3, len(maps)))
+    rows = max(1, -(-len(maps) // columns))
+    axes = figure.subplots(rows, columns, squeeze=False).ravel()
+    for ax, (title, points) in zip(axes, maps):
+        _one(figure, ax, title, points)
+    for ax in axes[len(maps) :]:
+        ax.set_axis_off()
+    if not maps:
+        axes[0].set_title("no parameter of this model sharpens its lobe: nothing to map", fontsize=9)
+
+
+def _maps(result: dict[str, Any]) -> list[tuple[str, list[Any]]]:
+    precisions = dict.fromkeys(f["where"]["precision"] for f in result["findings"])
+    pairs = zip(precisions, result.get("curves", []))
+    return [(f"{result['model']}, {name}", points) for name, points in pairs if points]
+
+
+def _one(figure: Any, ax: Any, title: str, points: list[Any]) -> None:
+    # a direction lower than any angle counts as 90 degrees; shown from the horizon, on a log axis
+    left = [max(90.0 - t, 1e-7) for t, _, _ in points]
+    errors = [FLOOR if e is None else min(max(e, FLOOR), 1.0) for _, _, e in points]
+    drawn = ax.scatter(left, [v for _, v, _ in points], c=errors, norm="log", vmin=FLOOR, vmax=1.0,
+                       cmap="viridis", marker="s", s=18)  # fmt: skip
+    ax.set_xscale("log")
+    ax.set_yscale("symlog", linthresh=1e-4)
+    ax.invert_xaxis()
+    ax.set_title(title, fontsize=9)
+    ax.set_xlabel("90 - theta_o (degrees)")
+    ax.set_ylabel("roughness or exponent")
+    figure.colorbar(drawn, ax=ax, label="worst relative error")

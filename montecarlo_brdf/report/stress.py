@@ -1,0 +1,136 @@
+"""What the ladder of precisions found, as findings and as a table."""
+from __future__ import annotations
+
+import math
+import sys
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.report.text import COLOURS, PLAIN_WIDTH
+from montecarlo_brdf.stability.climb import Found
+from montecarlo_brdf.stability.sampling import LENGTH_ROUNDINGS
+from montecarlo_brdf.stability.stress import Outcome
+
+#: Precisions that a model is held to unless it is asked for others by name.
+PROMISED = ("float32", "float64")
+UNASKED = "measured, not promised: --precision {} makes it a claim"
+
+
+def result(model: Any, outcomes: list[Outcome], promised: tuple[str, ...]) -> Result:
+    """The findings of all precisions of one model; its curves are the heat maps."""
+    findings = [f for o in outcomes for f in _findings(model, o, o.precision in promised)]
+    heat: list[Any] = [o.heat for o in outcomes]
+    return Result(model.name, dict(model.picks), "stability", findings, heat)
+
+
+def _findings(model: Any, o: Outcome, promised: bool) -> list[Finding]:
+    where = {"precision": o.precision}
+    note = None if promised else UNASKED.format(o.precision)
+
+    def at_most(quantity: str, value: float, limit: float, reason: str | None, repro: str | None) -> Finding:
+        held = value <= limit
+        verdict = "pass" if held else ("fail" if promised else "known")
+        said = None if held else "; ".join(s for s in (reason, note) if s)
+        return Finding(
+            quantity, where, verdict, "at most", value, 0.0, 0.0, limit,
+            samples=o.points, estimator="search", note=said, reproduce=None if held else repro,
+        )  # fmt: skip
+
+    found = [at_most("error of f", _own(o), o.tolerance, *_worst(model, o, o.worst))]
+    broken = sum(o.counts[k] for k in ("nan", "inf", "negative"))
+    first = next((o.first[k] for k in ("nan", "inf", "negative") if k in o.first), None)
+    found.append(at_most("f is NaN, Inf or negative", float(broken), 0.0, *_worst(model, o, first)))
+    if o.safe:
+        found.append(_safe(o, where))
+    if o.draws:
+        d = o.draws
+        limit = LENGTH_ROUNDINGS * o.eps
+        found.append(at_most("length of a sample - 1", d.length, limit, _drawn(d.where.get("length")), None))
+        bad = d.nan + d.unreachable + d.weightless
+        place = d.where.get("unreachable") or d.where.get("weightless")
+        found.append(at_most("samples NaN, of pdf 0, of infinite weight", float(bad), 0.0, _drawn(place), None))
+    return found
+
+
+def _own(o: Outcome) -> float:
+    return o.worst.own if o.worst else 0.0
+
+
+def _safe(o: Outcome, where: dict[str, Any]) -> Finding:
+    name, value = o.safe or ("", math.nan)
+    none = "none is safe" if math.isnan(value) else None
+    return Finding(f"smallest safe {name}" if name != "n" else "largest safe n", where,
+                   "pass" if none is None else "known", value=value, stderr=0.0,
+                   samples=o.points, estimator="search", note=none)  # fmt: skip
+
+
+def _worst(model: Any, o: Outcome, found: Found | None) -> tuple[str | None, str | None]:
+    """What was found and the command that shows it again."""
+    if found is None:
+        return None, None
+    values = f"{o.precision} gives {found.value:.9g}, the truth is {found.truth:.9g}"
+    return values, reproduction(model, o.precision, found)
+
+
+def reproduction(model: Any, precision: str, found: Found) -> str:
+    """The command that evaluates this one point in every precision."""
+    numbers = {**{n: repr(float(v)) for n, v in zip(found.p._fields, found.p)}, **model.picks}
+    assignments = "".join(f" -p {n}={v}" for n, v in numbers.items())
+    point = ",".join(repr(float(x)) for x in (*found.wo, *found.wi))
+    return f"brdf-check stress --model {model.name}{assignments} --precision {precision} --at {point}"
+
+
+def _drawn(place: dict[str, Any] | None) -> str | None:
+    if place is None:
+        return None
+    p = ", ".join(f"{n}={v:g}" for n, v in place["p"].items())
+    return f"wo = {tuple(place['wo'])}, u = {tuple(place['u'])}" + (f", {p}" if p else "")
+
+
+def show(report: Report, tables: list[tuple[Any, list[Outcome]]]) -> None:
+    """Print one table per model, side by side numbers for every precision, then what failed."""
+    console = Console(width=None if sys.stdout.isatty() else PLAIN_WIDTH, highlight=False)
+    for one, (model, outcomes) in zip(report.results, tables):
+        picks = ", ".join(f"{k}={v}" for k, v in model.picks.items())
+        console.print(Text(f"{model.name}{f'({picks})' if picks else ''}  stability", style="bold"))
+        console.print(_table(outcomes, one))
+        lines = [line for f in one.findings for line in _lines(f)]
+        for line in dict.fromkeys(lines):
+            console.print(Text(line), soft_wrap=True)
+    console.print(Text(report.verdict.upper(), style=COLOURS.get(report.verdict, "")))
+
+
+def _lines(f: Finding) -> list[str]:
+    if f.verdict not in ("fail", "known"):
+        return []
+    head = f"  {f.where['precision']}: {f.quantity} {f.value:.2g}"
+    return [f"{head}: {f.note}", *([f"  repro {f.reproduce}"] if f.reproduce else [])]
+
+
+def _table(outcomes: list[Outcome], one: Result) -> Table:
+    grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for name in ("precision", "points", "worst error", "ulps", "allowed", "with rounded directions",
+                 "NaN", "Inf", "< 0", "flushed", "safe from", "sample length", "verdict"):  # fmt: skip
+        grid.add_column(name, justify="right" if name != "verdict" else "left")
+    for o in outcomes:
+        grid.add_row(*_row(o), _verdict(one, o.precision))
+    return grid
+
+
+def _row(o: Outcome) -> list[str]:
+    total = o.worst_total.total if o.worst_total else 0.0
+    safe = "" if o.safe is None else f"{o.safe[0]} " + ("none" if math.isnan(o.safe[1]) else f"{o.safe[1]:.3g}")
+    kinds = [str(o.counts[k]) for k in ("nan", "inf", "negative", "flushed")]
+    length = "" if o.draws is None else f"{o.draws.length / o.eps:.1f} eps"
+    return [o.precision, str(o.points), f"{_own(o):.1e}", f"{_own(o) / o.eps:.2g}", f"{o.tolerance:.0e}",
+            f"{total:.1e}", *kinds, safe, length]  # fmt: skip
+
+
+def _verdict(one: Result, precision: str) -> Text:
+    verdicts = [f.verdict for f in one.findings if f.where["precision"] == precision]
+    verdict = next((v for v in ("fail", "known") if v in verdicts), "pass")
+    return Text(verdict.upper() if verdict != "pass" else "pass", style=COLOURS[verdict])

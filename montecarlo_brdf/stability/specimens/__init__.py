@@ -1,0 +1,27 @@
+"""Forms that are printed in books and shipped in engines and lose their digits, kept on purpose.
+
+Each is a model file like any other; `brdf-check stress --model NAME` and `--compare` know them.
+"""
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+
+from montecarlo_brdf import loading
+from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.model import Model, build
+
+
+def names() -> list[str]:
+    """Every specimen: the files of this folder."""
+    return sorted(p.stem for p in Path(__file__).parent.glob("*.py") if not p.stem.startswith("_"))
+
+
+def load(spec: str) -> Model:
+    """A specimen by name, or any model that `loading.load` knows."""
+    if spec in names():
+        return build(spec, vars(importlib.import_module(f"{__name__}.{spec}")), {}, built_in=False)
+    known = loading.names()
+    if spec not in known and not any(mark in spec for mark in (".py", "+")):
+        raise UserError(unknown("model", spec, [*known, *names()]) + ", or give the path of a .py file")
+    return loading.load(spec)
