@@ -132,8 +132,10 @@ def build(name: str, namespace: Mapping[str, Any], picks: Mapping[str, str], bui
     _check_params(name, bound.get("Params", NoParams))
     params = _params_of(bound, options, picks)
     domain = dict(bound.get("domain", {}))
+    disclaims = dict(bound.get("disclaims", {}))
     for option in options:
         domain.update(option["domain"])
+        disclaims.update(option["disclaims"])
     _check_arguments(name, bound)
     _check_domain(name, domain)
     optional = ("sample", "pdf", "prepare", "albedo", "same_as", "scales_with", "lobe")
@@ -145,7 +147,7 @@ def build(name: str, namespace: Mapping[str, Any], picks: Mapping[str, str], bui
         Params=params,
         domain={k: v for k, v in domain.items() if k in params._fields},  # type: ignore[attr-defined]
         choices=choices,
-        disclaims=bound.get("disclaims", {}),
+        disclaims=disclaims,
         verified=tuple(bound.get("verified", ())),
         lossless=bound.get("lossless", False),
         isotropic=bool(bound.get("isotropic", True)),
@@ -162,7 +164,7 @@ def _option(category: str, option: Any) -> dict[str, Any]:
     """An option in its long form: functions to bind, parameters that it brings, their domain."""
     if not isinstance(option, Mapping):
         option = {"functions": {category: option}}
-    return {"functions": {}, "params": {}, "domain": {}, **option}
+    return {"functions": {}, "params": {}, "domain": {}, "disclaims": {}, **option}
 
 
 def _rebound(namespace: Mapping[str, Any], names: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -170,8 +172,8 @@ def _rebound(namespace: Mapping[str, Any], names: Mapping[str, Any]) -> Mapping[
     if not names:
         return namespace
     copy = {**namespace, **names}
-    for key, value in namespace.items():
-        if isinstance(value, types.FunctionType) and value.__globals__ is namespace and key not in names:
+    for key, value in list(copy.items()):
+        if isinstance(value, types.FunctionType) and value.__globals__ is namespace:
             copy[key] = types.FunctionType(
                 value.__code__, copy, value.__name__, value.__defaults__, value.__closure__
             )

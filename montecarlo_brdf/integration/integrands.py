@@ -34,7 +34,7 @@ def albedo_cosine(u: Any, fixed: Any, p: Any) -> float:
 def albedo_own(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wi from the model's sampler: E = A(wo)."""
     wo = (fixed[0], fixed[1], fixed[2])
-    wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
+    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
     wi = (wi[0], wi[1], wi[2])
@@ -43,7 +43,7 @@ def albedo_own(u: Any, fixed: Any, p: Any) -> float:
 
 def albedo_weighted(u: Any, fixed: Any, p: Any) -> float:
     """The weight f cos / pdf that the model's sampler returns itself: E = A(wo)."""
-    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[2]), p)
+    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
     return wi[3]
@@ -64,7 +64,7 @@ def reverse_cosine(u: Any, fixed: Any, p: Any) -> float:
 def reverse_own(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wo drawn as the model's sampler would draw wi: E = R(wi)."""
     wi = (fixed[0], fixed[1], fixed[2])
-    drawn = SAMPLE(wi, (u[0], u[1], u[2]), p)
+    drawn = SAMPLE(wi, (u[0], u[1], u[4]), p)
     if drawn[2] <= 0.0:
         return 0.0
     wo = (drawn[0], drawn[1], drawn[2])
@@ -106,7 +106,7 @@ def bihemispherical_weighted(u: Any, fixed: Any, p: Any) -> float:
 def second_uniform(u: Any, fixed: Any, p: Any) -> float:
     """E[x^2] of `albedo_uniform`, from draws by the model's own sampler, which sees its lobe."""
     wo = (fixed[0], fixed[1], fixed[2])
-    wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
+    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
     wi = (wi[0], wi[1], wi[2])
@@ -117,7 +117,7 @@ def second_uniform(u: Any, fixed: Any, p: Any) -> float:
 def second_cosine(u: Any, fixed: Any, p: Any) -> float:
     """E[x^2] of `albedo_cosine`, from draws by the model's own sampler."""
     wo = (fixed[0], fixed[1], fixed[2])
-    wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
+    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
     wi = (wi[0], wi[1], wi[2])
@@ -138,7 +138,7 @@ def hemisphere_cosine(u: Any, fixed: Any, p: Any) -> float:
 
 def rejected_own(u: Any, fixed: Any, p: Any) -> float:
     """1 where the model's sampler rejects: E = the rejected fraction."""
-    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[2]), p)
+    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 1.0
     return 0.0
@@ -162,7 +162,7 @@ def radiance_cosine(u: Any, fixed: Any, p: Any) -> float:
 def radiance_own(u: Any, fixed: Any, p: Any) -> float:
     """f L cos / pdf with wi from the model's sampler."""
     wo = (fixed[0], fixed[1], fixed[2])
-    wi = SAMPLE(wo, (u[0], u[1], u[2]), p)
+    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
     wi = (wi[0], wi[1], wi[2])
@@ -171,7 +171,7 @@ def radiance_own(u: Any, fixed: Any, p: Any) -> float:
 
 def radiance_weighted(u: Any, fixed: Any, p: Any) -> float:
     """L times the weight that the model's sampler returns."""
-    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[2]), p)
+    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
     return wi[3] * SKY((wi[0], wi[1], wi[2]))

@@ -159,9 +159,16 @@ def overall(opinions: list[Opinion]) -> str:
 
 
 def _telling(opinions: list[Opinion]) -> Opinion:
-    """The opinion that a finding shows: one that refutes, else the most precise fit one."""
-    order = {"fail": 0, "pass": 1, "inconclusive": 1, "unfit": 2}
-    return min(opinions, key=lambda o: (order[o.verdict], o.half_width))
+    """The opinion that a finding shows: one that refutes, else the most precise that decided.
+
+    Samples come before a quadrature: its value is shown where they leave the claim open.
+    """
+    order = {"fail": 0, "pass": 1, "inconclusive": 2, "unfit": 3}
+
+    def rank(o: Opinion) -> tuple[int, bool, float]:
+        return order[o.verdict], o.measurement.bound is not None, o.half_width
+
+    return min(opinions, key=rank)
 
 
 def resolves(claim: MeanClaim, m: Measurement, level: float) -> float:

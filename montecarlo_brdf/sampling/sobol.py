@@ -47,15 +47,32 @@ def sobol_shuffled(key: int, index: int, axis: int) -> int:
     return u32(reverse32(u32(owen_reversed(u32(reverse32(u32(index))), seed))))
 
 
+def third(index: int) -> int:
+    """The third Sobol coordinate of an index, its first digit in the highest bit.
+
+    Primitive polynomial x^2 + x + 1, initial numbers 1 and 3 (Joe & Kuo 2008, table for d = 3):
+    V_k = V_{k-1} ^ V_{k-2} ^ (V_{k-2} >> 2). The loop is unrolled to constants when compiled.
+    """
+    before, last = u32(0x80000000), u32(0xC0000000)
+    word = u32(0)
+    for j in range(32):
+        word = u32(word ^ (before * ((index >> u32(j)) & u32(1))))
+        before, last = last, u32(last ^ before ^ (before >> u32(2)))
+    return word
+
+
 def sobol(key: int, index: int, shape: Shape = NONE) -> Point:
-    """Sobol points, Owen-scrambled by hashing; coordinates (0, 1) and (2, 3) are (0, 2)-nets."""
+    """Sobol points, Owen-scrambled by hashing; coordinates (0, 1) and (2, 3) are (0, 2)-nets.
+
+    Coordinate 4 is the third of the sequence that 0 and 1 belong to: a sampler that chooses its
+    lobe by it keeps the directions of every lobe well spread.
+    """
     i0 = u32(index)
     i2 = sobol_shuffled(key, index, u64(2))
-    i4 = sobol_shuffled(key, index, u64(4))
     return (
         scrambled(i0, key, index, u64(0)),
         scrambled(u32(pascal_reversed(i0)), key, index, u64(1)),
         scrambled(i2, key, index, u64(2)),
         scrambled(u32(pascal_reversed(i2)), key, index, u64(3)),
-        scrambled(i4, key, index, u64(4)),
+        scrambled(u32(reverse32(third(i0))), key, index, u64(4)),
     )
