@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import functools
+import os
 import secrets
 from collections.abc import Callable
 from pathlib import Path
@@ -10,9 +11,11 @@ from typing import Any
 import click
 
 from montecarlo_brdf.cli._values import Number, Whole, whole
-from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.errors import OutputError, UserError, unknown
+from montecarlo_brdf.report import formats
 
-FORMATS = ("text", "json")
+EXPORTS = "montecarlo_brdf.exports"  # where the context of a command keeps --export
+FORMATS = ("text", *formats.names())
 
 
 def model_names(ctx: Any, param: Any, incomplete: str) -> list[str]:
@@ -63,10 +66,14 @@ def sampling_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def output_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """--format, --export-json, --inconclusive, --verbose."""
+    """--format, --export, --export-json, --inconclusive, --verbose."""
     options = [
         click.option("--format", "form", default="text", show_default=True, metavar="FORM",
-                     help=f"What stdout gets: {' or '.join(FORMATS)}. [--format json]"),
+                     help=f"What stdout gets: {', '.join(FORMATS)}. [--format junit]"),
+        click.option("--export", "exports", type=click.Path(path_type=Path), metavar="FILE",
+                     multiple=True, expose_value=False, callback=_remembered,
+                     help="Write the report in the format of the suffix: .json, .xml (JUnit), .md, "
+                     ".csv; may be given more than once. [--export junit.xml]"),
         click.option("--export-json", type=click.Path(path_type=Path), metavar="FILE",
                      help="Write the whole report. [--export-json report.json]"),
         click.option("--inconclusive", type=click.Choice(["pass", "fail"]), default=None,
@@ -76,14 +83,29 @@ def output_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return functools.reduce(lambda done, option: option(done), reversed(options), command)
 
 
+def _remembered(ctx: Any, param: Any, paths: tuple[Path, ...]) -> tuple[Path, ...]:
+    """Keep --export for `check_outputs` and `deliver`, whichever command it belongs to."""
+    ctx.meta[EXPORTS] = paths
+    return paths
+
+
+def exports() -> dict[Path, str]:
+    """What the current command has to export: file -> format."""
+    context = click.get_current_context(silent=True)
+    paths = context.meta.get(EXPORTS, ()) if context else ()
+    for path in paths:
+        if path.suffix not in formats.suffixes():
+            raise UserError(unknown(f"format for {path}: suffix", path.suffix, formats.suffixes()))
+    return {path: formats.suffixes()[path.suffix] for path in paths}
+
+
 def check_outputs(form: str, *paths: Path | None) -> None:
     """Complain about outputs before hours of work, not after."""
-    from montecarlo_brdf.errors import unknown
     from montecarlo_brdf.report.write import check_writable
 
     if form not in FORMATS:
         raise UserError(unknown("format", form, FORMATS))
-    for path in paths:
+    for path in (*paths, *exports()):
         if path is not None:
             check_writable(path)
 
@@ -100,18 +122,42 @@ def seed_of(text: str) -> int:
     return seed
 
 
-def deliver(report: Any, form: str, export: Path | None, inconclusive: str | None, verbose: bool) -> int:
+def deliver(
+    report: Any, form: str, export: Path | None, inconclusive: str | None, verbose: bool
+) -> int:
     """Print and write a report; the exit code of the command."""
-    from montecarlo_brdf.report.write import write_text
-
-    if export is not None:
-        write_text(export, report.to_json())
-    if form == "json":
-        click.echo(report.to_json(), nl=False)
-    else:
+    if inconclusive:
+        report.settings["inconclusive"] = inconclusive
+    write_exports(report, export)
+    if form == "text":
         from montecarlo_brdf.report.text import show
 
         show(report, verbose)
+    else:
+        click.echo(formats.render(report, form), nl=False)
+    if form == "github":
+        _summarise(report)
     if report.verdict == "inconclusive" and inconclusive:
         return {"pass": 0, "fail": 1}[inconclusive]
     return int(report.exit_code)
+
+
+def write_exports(report: Any, export_json: Path | None) -> None:
+    """--export-json and every --export."""
+    from montecarlo_brdf.report.write import write_text
+
+    wanted = {**exports(), **({export_json: "json"} if export_json else {})}
+    for path, form in wanted.items():
+        write_text(path, formats.render(report, form))
+
+
+def _summarise(report: Any) -> None:
+    """Add the Markdown report to the page of the workflow run."""
+    path = os.environ.get("GITHUB_STEP_SUMMARY")
+    if not path:
+        return
+    try:
+        with open(path, "a", encoding="utf-8") as file:
+            file.write(formats.render(report, "markdown"))
+    except OSError as error:
+        raise OutputError(f"cannot write {path}: {error.strerror or error}") from error

@@ -1,4 +1,4 @@
-"""Findings, results, reports: plain data from which text, JSON, pictures and exit codes are made."""
+"""Findings, results, reports: plain data; text, JSON, pictures, exit codes are made from it."""
 from __future__ import annotations
 
 import json
@@ -46,6 +46,7 @@ class Result:
     check: str
     findings: list[Finding]
     curves: list[list[tuple[float, float]]] = field(default_factory=list)  # per channel, for plots
+    source: dict[str, Any] = field(default_factory=dict)  # file and line of the user's f
 
     @property
     def verdict(self) -> str:
@@ -91,7 +92,7 @@ class Report:
         }
 
     def to_json(self) -> str:
-        """The report as JSON; numbers that are not finite become null, as JSON has no name for them."""
+        """The report as JSON; numbers that are not finite become null: JSON has no name for them."""
         return json.dumps(_plain(self.to_dict()), indent=1, allow_nan=False) + "\n"
 
 
@@ -111,15 +112,19 @@ def versions() -> dict[str, str]:
 
 
 def _result(result: Result) -> dict[str, Any]:
-    curves = {"curves": result.curves} if result.curves else {}
+    extra = {k: v for k in ("source", "curves") if (v := getattr(result, k))}
     return {
         "model": result.model,
         "params": result.params,
         "check": result.check,
         "verdict": result.verdict,
-        "findings": [{k: v for k, v in vars(f).items() if v not in (None, [])} for f in result.findings],
-        **curves,
+        "findings": [_finding(f) for f in result.findings],
+        **extra,
     }
+
+
+def _finding(finding: Finding) -> dict[str, Any]:
+    return {k: v for k, v in vars(finding).items() if v not in (None, [])}
 
 
 def _plain(value: Any) -> Any:

@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from montecarlo_brdf.report.findings import SEVERITY, Finding, Report, Result, worst
+from montecarlo_brdf.report.sentences import SYMBOLS, bound, case, coordinate, place, tally
 from montecarlo_brdf.statistics import with_error
 
 COLOURS = {
@@ -22,8 +23,6 @@ COLOURS = {
     "skipped": "dim",
 }
 PLAIN_WIDTH = 118
-SYMBOLS = {"theta_o_deg": "theta_o", "theta_i_deg": "theta_i",
-    "phi_o_deg": "phi_o", "phi_i_deg": "phi_i", "channel": "ch"}  # fmt: skip
 
 
 def show(report: Report, verbose: bool = False) -> None:
@@ -55,19 +54,29 @@ def check_table(results: list[Result]) -> Table:
     grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for name in ("check", "claims", "worst", "estimate", "bound", "where", "verdict"):
         grid.add_column(name, overflow="fold", no_wrap=name in ("check", "verdict"))
-    for result in results:
-        f = min(result.findings, key=lambda f: (SEVERITY.index(f.verdict), -_excess(f)))
+    for result in filter(lambda r: r.findings, results):
+        f = most_telling(result)
         known = f.expected is not None and math.isfinite(f.value)
         grid.add_row(
             result.check,
             str(sum(g.verdict != "skipped" for g in result.findings)),
             f.quantity if known else "",
             with_error(f.value, f.stderr) if known else "",
-            _bound(f) if known else "",
-            _where(f) if f.where else "",
-            Text(f.verdict.upper() if f.verdict in ("fail", "error") else f.verdict, COLOURS[f.verdict]),
+            bound(f) if known else "",
+            place(f),
+            Text(loud(f.verdict), COLOURS[f.verdict]),
         )
     return grid
+
+
+def most_telling(result: Result) -> Finding:
+    """The worst finding of a check, or the one that came nearest to its tolerance."""
+    return min(result.findings, key=lambda f: (SEVERITY.index(f.verdict), -_excess(f)))
+
+
+def loud(verdict: str) -> str:
+    """A verdict, in capitals if it is bad."""
+    return verdict.upper() if verdict in ("fail", "error") else verdict
 
 
 def _excess(f: Finding) -> float:
@@ -77,45 +86,22 @@ def _excess(f: Finding) -> float:
     return abs(f.value - f.expected) / f.tolerance if f.bound == "equal" else f.value - f.expected
 
 
-def _bound(f: Finding) -> str:
-    sign = {"at most": "<= ", "at least": ">= ", "equal": ""}[f.bound]
-    tolerance = f" +- {f.tolerance:.1e}" if f.tolerance else ""
-    return f"{sign}{f.expected:.8g}{tolerance}"
-
-
 def title(result: Result) -> str:
     """'lambert(albedo=0.8)  furnace'."""
-    values = ", ".join(f"{k}={shown(v)}" for k, v in result.params.items())
-    name = f"{result.model}({values})  " if result.model else ""
-    return f"{name}{result.check}"
-
-
-def shown(value: Any) -> str:
-    """A parameter as it would be typed: 0.5, or 1/0.7/0.3 for a colour."""
-    if isinstance(value, (tuple, list)):
-        return "/".join(shown(v) for v in value)
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return f"{case(result)}  {result.check}" if result.model else result.check
 
 
 def table(result: Result) -> Table:
     """One row per finding."""
     places = list(dict.fromkeys(k for f in result.findings for k in f.where))
     grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for place in places:
-        grid.add_column(SYMBOLS.get(place, place), justify="right", no_wrap=True)
+    for name in places:
+        grid.add_column(SYMBOLS.get(name, name), justify="right", no_wrap=True)
     for name in ("quantity", "estimate", "expected", "tolerance", "resolves", "by", "verdict"):
         grid.add_column(name, justify="left", no_wrap=name in ("estimate", "verdict"))
     for finding in result.findings:
-        grid.add_row(*[_place(k, finding.where.get(k)) for k in places], *_cells(finding))
+        grid.add_row(*[coordinate(k, finding.where.get(k)) for k in places], *_cells(finding))
     return grid
-
-
-def _place(name: str, value: Any) -> str:
-    if value is None:
-        return ""
-    if name.endswith("_deg"):
-        return f"{value:g}°"
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def _cells(f: Finding) -> list[Any]:
@@ -137,7 +123,8 @@ def _print_attention(console: Console, result: Result, verbose: bool) -> None:
         if verbose:
             for row in f.estimators:
                 value = with_error(float(row["value"]), float(row["stderr"]))
-                lines[f"  {_where(f)} {f.quantity}: {row['estimator']} {value} {row['verdict']}"] = None
+                at = f"{place(f) or 'it'} {f.quantity}: {row['estimator']}"
+                lines[f"  {at} {value} {row['verdict']}"] = None
         for kind, sentence in (("note", f.note), ("hint", f.hint), ("repro", f.reproduce)):
             if sentence:
                 lines[f"  {kind:5} {sentence}"] = None
@@ -154,23 +141,19 @@ def _not_used(result: Result) -> list[tuple[str, str, str]]:
         for row in f.estimators:
             if "not_used" in row and f.bound == "equal":
                 _, places = found.setdefault(row["estimator"], (row["not_used"], {}))
-                places[_where(f)] = None
+                places[place(f) or "it"] = None
     return [(name, reason, ", ".join(places)) for name, (reason, places) in found.items()]
-
-
-def _where(f: Finding) -> str:
-    return " ".join(f"{SYMBOLS.get(k, k)} {_place(k, v)}" for k, v in f.where.items()) or "it"
 
 
 def summary(report: Report) -> Text:
     """The verdict, how it came about, and how often it would be wrong."""
     findings = [f for r in report.results for f in r.findings]
-    counts = [f"{sum(f.verdict == v for f in findings)} {v}" for v in COLOURS if any(f.verdict == v for f in findings)]
+    counts = tally(findings)
     samples = max((f.samples or 0 for f in findings), default=0)
     verdict = worst(f.verdict for f in findings) if findings else "skipped"
     text = Text(f"{report.verdict.upper()}", style=COLOURS.get(verdict, ""))
     text.append(
-        f"  {', '.join(counts)}; up to {samples} samples a claim, {report.settings.get('points')} points, "
+        f"  {counts}; up to {samples} samples a claim, {report.settings.get('points')} points, "
         f"seed {report.settings.get('seed')}; chance of a false alarm <= {report.level:.1g}",
         style="not bold default",
     )

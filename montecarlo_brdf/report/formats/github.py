@@ -1,0 +1,41 @@
+"""GitHub Actions: workflow commands that annotate the line of the user's f.
+
+The same run writes the Markdown report into $GITHUB_STEP_SUMMARY where that is set.
+"""
+from __future__ import annotations
+
+from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.report.sentences import BAD, case, explanation, statement, tally
+
+SUFFIX = ""  # for a terminal, not for a file
+LEVELS = {"error": "error", "fail": "error", "inconclusive": "warning", "known": "notice"}
+
+
+def render(report: Report) -> str:
+    """One command per finding that needs attention, and a last line with the verdict."""
+    lines = [
+        _command(result, finding)
+        for result in report.results
+        for finding in result.findings
+        if finding.verdict in (*BAD, "known")
+    ]
+    counts = tally(f for r in report.results for f in r.findings)
+    return "\n".join([*lines, f"brdf-check {report.command}: {report.verdict}; {counts}"]) + "\n"
+
+
+def _command(result: Result, finding: Finding) -> str:
+    title = f"{case(result)} {result.check}: {finding.verdict}".strip()
+    where = {**result.source, "title": title}
+    properties = ",".join(f"{name}={_property(str(value))}" for name, value in where.items())
+    message = "\n".join([statement(finding), *explanation(finding)])
+    return f"::{LEVELS[finding.verdict]} {properties}::{_data(message)}"
+
+
+def _data(text: str) -> str:
+    """As the runner decodes a message."""
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    """As the runner decodes a property."""
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

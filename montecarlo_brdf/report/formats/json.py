@@ -1,0 +1,11 @@
+"""JSON: the whole report, with a versioned schema."""
+from __future__ import annotations
+
+from montecarlo_brdf.report.findings import Report
+
+SUFFIX = ".json"
+
+
+def render(report: Report) -> str:
+    """The report as JSON text."""
+    return report.to_json()

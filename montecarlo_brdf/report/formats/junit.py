@@ -1,0 +1,100 @@
+"""JUnit XML as Jenkins, GitLab and GitHub's report actions read it.
+
+A test suite is a model with its parameters, a test case one finding. A refuted claim is a failure,
+a model that could not be run an error; an inconclusive finding is an error too, as the run does not
+exit with 0, unless --inconclusive says what it counts as. A known one passes, its reason in
+system-out.
+"""
+from __future__ import annotations
+
+import re
+from collections import Counter
+from xml.etree import ElementTree
+
+from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.report.sentences import case, explanation, place, statement
+from montecarlo_brdf.report.text import grouped
+
+SUFFIX = ".xml"
+OUTCOMES = {"fail": "failure", "error": "error", "inconclusive": "error", "skipped": "skipped"}
+INCONCLUSIVE = {"pass": "skipped", "fail": "failure"}
+#: characters that XML has no way to write
+FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def render(report: Report) -> str:
+    """The whole report as one <testsuites>."""
+    outcomes = {**OUTCOMES, "inconclusive": INCONCLUSIVE.get(_policy(report), "error")}
+    root = ElementTree.Element("testsuites", name=f"brdf-check {report.command}")
+    for group in grouped(report.results):
+        _suite(root, group, report, outcomes)
+    counts = [_counts(suite) for suite in root]
+    for name in ("tests", "failures", "errors"):
+        root.set(name, str(sum(c[name] for c in counts)))
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
+
+
+def _policy(report: Report) -> str:
+    return str(report.settings.get("inconclusive"))
+
+
+def _suite(
+    root: ElementTree.Element, group: list[Result], report: Report, outcomes: dict[str, str]
+) -> None:
+    name = _legal(case(group[0]) or group[0].check)
+    suite = ElementTree.SubElement(root, "testsuite", name=name)
+    properties = ElementTree.SubElement(suite, "properties")
+    for key in ("seed", "samples", "points"):
+        value = str(report.settings.get(key, ""))
+        ElementTree.SubElement(properties, "property", name=key, value=value)
+    for result in group:
+        for finding, title in zip(result.findings, _titles(result), strict=True):
+            _case(suite, name, result, finding, title, outcomes)
+    for key, number in _counts(suite).items():
+        suite.set(key, str(number))
+
+
+def _titles(result: Result) -> list[str]:
+    """A name for every finding, and no name twice: readers merge cases of equal names."""
+    seen: Counter[str] = Counter()
+    titles = []
+    for f in result.findings:
+        title = " ".join(filter(None, (f.quantity, place(f))))
+        seen[title] += 1
+        titles.append(_legal(title if seen[title] == 1 else f"{title} ({seen[title]})"))
+    return titles
+
+
+def _case(
+    suite: ElementTree.Element,
+    name: str,
+    result: Result,
+    finding: Finding,
+    title: str,
+    outcomes: dict[str, str],
+) -> None:
+    # a dot separates packages in a class name, so those of numbers and file names must go
+    owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
+    test = ElementTree.SubElement(suite, "testcase", classname=owner, name=title)
+    lines = [statement(finding), *explanation(finding), *_source(result)]
+    outcome = outcomes.get(finding.verdict)
+    if outcome:
+        message = finding.note or "skipped" if outcome == "skipped" else statement(finding)
+        told = ElementTree.SubElement(test, outcome, type=finding.verdict, message=_legal(message))
+        told.text = _legal("\n".join(lines))
+    else:
+        ElementTree.SubElement(test, "system-out").text = _legal("\n".join(lines))
+
+
+def _source(result: Result) -> list[str]:
+    return [f"f: {result.source['file']}:{result.source['line']}"] if result.source else []
+
+
+def _counts(suite: ElementTree.Element) -> dict[str, int]:
+    found = {"tests": "testcase", "failures": "failure", "errors": "error", "skipped": "skipped"}
+    return {name: len(list(suite.iter(tag))) for name, tag in found.items()}
+
+
+def _legal(text: str) -> str:
+    return FORBIDDEN.sub("\ufffd", text)

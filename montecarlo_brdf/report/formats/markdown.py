@@ -1,0 +1,53 @@
+"""Markdown: a table per model with the worst finding of each check, then what needs attention."""
+from __future__ import annotations
+
+import html
+
+from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.report.sentences import BAD, bound, case, explanation, place, statement, tally
+from montecarlo_brdf.report.text import grouped, loud, most_telling
+from montecarlo_brdf.statistics import with_error
+
+SUFFIX = ".md"
+HEADER = ("check", "worst", "estimate", "bound", "where", "verdict")
+
+
+def render(report: Report) -> str:
+    """The verdict, one table per model, and the failures in full."""
+    findings = [f for r in report.results for f in r.findings]
+    parts = [f"## brdf-check {report.command}: {report.verdict.upper()}", tally(findings) or "-"]
+    for group in grouped(report.results):
+        heading = f"### {_cell(case(group[0]) or group[0].check)}"
+        parts.append("\n".join([heading, "", *_table(group)]))
+        parts += [_attention(r, f) for r in group for f in r.findings if f.verdict in BAD]
+    rate = f"chance of a false alarm <= {report.level:.1g}"
+    parts.append(f"seed {report.settings.get('seed')}; {rate}")
+    return "\n\n".join(parts) + "\n"
+
+
+def _table(group: list[Result]) -> list[str]:
+    rows = [_row(r, most_telling(r)) for r in group if r.findings]
+    return [f"| {' | '.join(row)} |" for row in (HEADER, ("---",) * len(HEADER), *rows)]
+
+
+def _row(result: Result, f: Finding) -> tuple[str, ...]:
+    value = with_error(f.value, f.stderr) if f.samples is not None else ""
+    cells = (result.check, f.quantity, value, bound(f), place(f), loud(f.verdict))
+    return tuple(map(_cell, cells))
+
+
+def _attention(result: Result, finding: Finding) -> str:
+    head = f"- **{loud(finding.verdict)}** {result.check}: {_cell(statement(finding))}"
+    rest = [f"  - {_explained(line)}" for line in explanation(finding)]
+    return "\n".join([head, *rest])
+
+
+def _explained(line: str) -> str:
+    """A command as code, anything else as text."""
+    name, _, text = line.partition(": ")
+    return f"{name}: `{text}`" if name == "reproduce" else _cell(line)
+
+
+def _cell(text: str) -> str:
+    """Text that neither ends a cell nor is taken for markup."""
+    return html.escape(text, quote=False).replace("|", "\\|").replace("*", "\\*").replace("\n", " ")

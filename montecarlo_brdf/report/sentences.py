@@ -1,0 +1,77 @@
+"""A finding in words: its place, its bound, its value. What all formats share."""
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from typing import Any
+
+from montecarlo_brdf.report.findings import Finding, Result
+from montecarlo_brdf.statistics import with_error
+
+SYMBOLS = {
+    "theta_o_deg": "theta_o",
+    "theta_i_deg": "theta_i",
+    "phi_o_deg": "phi_o",
+    "phi_i_deg": "phi_i",
+    "channel": "ch",
+}
+SIGNS = {"at most": "<= ", "at least": ">= ", "equal": ""}
+#: what needs somebody's attention, and how it counts
+BAD = ("error", "fail", "inconclusive")
+
+
+def case(result: Result) -> str:
+    """'lambert(albedo=0.8)'; empty if the result is of no model."""
+    values = ", ".join(f"{k}={shown(v)}" for k, v in result.params.items())
+    return f"{result.model}({values})" if values and result.model else result.model
+
+
+def shown(value: Any) -> str:
+    """A parameter as it would be typed: 0.5, or 1/0.7/0.3 for a colour."""
+    if isinstance(value, (tuple, list)):
+        return "/".join(shown(v) for v in value)
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def coordinate(name: str, value: Any) -> str:
+    """The value of one coordinate of a place."""
+    if value is None:
+        return ""
+    if name.endswith("_deg"):
+        return f"{value:g}°"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def place(finding: Finding) -> str:
+    """'theta_o 45° ch 1'; empty if the finding is about everything."""
+    return " ".join(f"{SYMBOLS.get(k, k)} {coordinate(k, v)}" for k, v in finding.where.items())
+
+
+def bound(finding: Finding) -> str:
+    """'<= 1 +- 1.0e-05'."""
+    if finding.expected is None:
+        return ""
+    tolerance = f" +- {finding.tolerance:.1e}" if finding.tolerance else ""
+    return f"{SIGNS[finding.bound]}{finding.expected:.8g}{tolerance}"
+
+
+def statement(finding: Finding) -> str:
+    """'A <= 1 at theta_o 45°: found 1.0500(3), allowed <= 1 +- 1.0e-05'."""
+    at = f" at {place(finding)}" if finding.where else ""
+    if finding.samples is None:  # never evaluated
+        return f"{finding.quantity}{at}"
+    allowed = f", allowed {bound(finding)}" if finding.expected is not None else ""
+    return f"{finding.quantity}{at}: found {with_error(finding.value, finding.stderr)}{allowed}"
+
+
+def explanation(finding: Finding) -> list[str]:
+    """Note, hint and reproduction command, each on a line of its own."""
+    rows = (("note", finding.note), ("hint", finding.hint), ("reproduce", finding.reproduce))
+    return [f"{name}: {text}" for name, text in rows if text]
+
+
+def tally(findings: Iterable[Finding]) -> str:
+    """'33 pass, 1 skipped'."""
+    counts = Counter(f.verdict for f in findings)
+    order = ("pass", "fail", "error", "inconclusive", "known", "skipped")
+    return ", ".join(f"{counts[v]} {v}" for v in order if counts[v])
