@@ -17,6 +17,12 @@ class ModelError(UserError):
     exit_code = 4
 
 
+class TooSlow(UserError):
+    """The model did not return in time, so nothing is known about it."""
+
+    exit_code = 3
+
+
 class OutputError(UserError):
     """A result could not be written."""
 

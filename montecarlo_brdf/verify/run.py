@@ -1,17 +1,19 @@
-"""All checks of a model, in time, interruptible, each finding with a command that repeats it."""
+"""All checks of a model, in time, interruptible, each finding with a command that repeats it.
+
+The checks run where they can be left (verify.supervision); what they left undone is inconclusive.
+"""
 from __future__ import annotations
 
 import math
 import shlex
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from montecarlo_brdf import checks
 from montecarlo_brdf.checks.case import Case, searched
-from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration import probe
+from montecarlo_brdf.errors import TooSlow, UserError, unknown
 from montecarlo_brdf.integration.estimators import Plan, check_theta
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Finding, Report, Result
@@ -26,9 +28,33 @@ from montecarlo_brdf.verify.common import (
     shared_progress,
     shown_parameters,
 )
+from montecarlo_brdf.verify.subject import probed, source
+from montecarlo_brdf.verify.supervision import supervised
 
 RUN_ANGLES = (0.0, 45.0, 80.0)
 RUN_SAMPLES = 1 << 20
+GRACE = 1.0  # seconds that a claim may go on after --max-time
+
+
+@dataclass
+class Task:
+    """One check of one case, and what is found so far."""
+
+    case: Case
+    check: str
+    findings: list[Finding] = field(default_factory=list)
+    begun: bool = False
+    done: bool = False
+    slow: str = ""  # why the model could not even be evaluated once
+
+    def result(self, why: str) -> Result:
+        """The findings; if it is not done one more is inconclusive, never forgotten."""
+        case, findings = self.case, list(self.findings)
+        if not self.done:
+            late = self.slow or f"not {'finished' if self.begun else 'begun'}: {why}"
+            findings.append(Finding(self.check, {}, "inconclusive", note=late))
+        shown = shown_parameters(case.model, case.p)
+        return Result(case.model.name, shown, self.check, findings, source=source(case.model))
 
 
 def run(
@@ -61,53 +87,67 @@ def run(
     check_tolerance(tolerance)
     started = time.perf_counter()
     deadline = deadline or Deadline(math.inf)
-    results: list[Result] = []
-    total = len(sets) * len(chosen)
-    interrupted = False
+    tasks = []
+    for one in sets:
+        variant = model.of(one)
+        free = searched(variant, dict.fromkeys(fixed)) if p is None or fixed else ()
+        case = Case(
+            variant, one, angles, phi_o_deg, None, tolerance, free, against=against, seed=seed
+        )
+        tasks += [Task(case, name) for name in chosen]
+    why, interrupted = "--max-time was over", False
     try:
-        for one in sets:
-            variant = model.of(one)
-            probe.check(variant, one)
-            free = searched(variant, dict.fromkeys(fixed)) if p is None or fixed else ()
-            case = Case(
-                variant, one, angles, phi_o_deg, None, tolerance, free, against=against, seed=seed
-            )
-            for name in chosen:
-                share = shared_progress(progress, len(results), total)
-                results.append(check_one(case, name, plan, deadline, share))
+        supervised(lambda: perform(tasks, plan, deadline, progress), deadline, GRACE)
     except KeyboardInterrupt:
-        interrupted = True
+        why, interrupted = "interrupted", True
     settings = {"checks": chosen, "theta_o_deg": angles, "tolerance": tolerance}
     settings |= plan_settings(plan)
-    report = reported("run", settings, results, started)
+    report = reported("run", settings, [task.result(why) for task in tasks], started)
     report.measured["interrupted"] = interrupted
     return report
 
 
-def check_one(
-    case: Case, name: str, plan: Plan, deadline: Deadline, progress: Progress | None = None
-) -> Result:
-    """One check of one case; what the deadline leaves undone is inconclusive, never forgotten."""
-    shown = shown_parameters(case.model, case.p)
-    findings: list[Finding] = []
-    if deadline.over():
-        late = Finding(name, {}, "inconclusive", note="not begun: --max-time was over")
-        return Result(case.model.name, shown, name, [late])
-    for claim in checks.find(name).claims(case):
+def perform(
+    tasks: Sequence[Task], plan: Plan, deadline: Deadline, progress: Progress | None = None
+) -> None:
+    """Do the tasks in their order until the deadline."""
+    case, slow = None, ""
+    for k, task in enumerate(tasks):
         if deadline.over():
-            note = "not finished: --max-time was over"
-            findings.append(Finding(name, {}, "inconclusive", note=note))
-            break
+            return
+        if task.case is not case:
+            case, slow = task.case, too_slow(task.case)
+        if slow:
+            task.slow = slow
+        else:
+            fill(task, plan, deadline, shared_progress(progress, k, len(tasks)))
+
+
+def too_slow(case: Case) -> str:
+    """Why a model cannot be sampled at all; empty if it can."""
+    try:
+        probed(case.model, case.p)
+    except TooSlow as error:
+        return str(error)
+    return ""
+
+
+def fill(task: Task, plan: Plan, deadline: Deadline, progress: Progress | None = None) -> None:
+    """Decide the claims of a task, begun before the deadline."""
+    case, task.begun = task.case, True
+    for claim in checks.find(task.check).claims(case):
+        if deadline.over():
+            return
         known = case.model.disclaims.get(getattr(claim, "property", ""))
         finding = decide(claim, plan, known)
         if finding.verdict not in ("pass", "skipped"):
-            finding = replace(finding, reproduce=reproduction(case, name, plan))
-        findings.append(finding)
+            finding = replace(finding, reproduce=reproduction(case, task.check, plan))
+        task.findings.append(finding)
         if progress:
             progress(0.5)
+    task.done = True
     if progress:
         progress(1.0)
-    return Result(case.model.name, shown, name, findings)
 
 
 def reproduction(case: Case, name: str, plan: Plan) -> str:

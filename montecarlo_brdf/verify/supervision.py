@@ -1,0 +1,90 @@
+"""Running a user's code where it can be left: if it takes for ever, limits and Ctrl-C still hold.
+
+The work runs in a thread while the caller waits. A thread that is left gets an exception at its
+next line of Python; inside machine code it ends with that call, or with the process.
+"""
+from __future__ import annotations
+
+import ctypes
+import threading
+import time
+from collections.abc import Callable
+from typing import Any, Protocol
+
+TICK = 0.1  # seconds; waiting that cannot be interrupted (on Windows) must be short
+STACK = 64 << 20  # bytes: compilers recurse deeply, and some systems give threads little
+
+
+class Limit(Protocol):
+    """Anything that knows when the time is up."""
+
+    def over(self) -> bool:
+        """Whether it is."""
+
+
+class Left(BaseException):
+    """Raised inside work that nobody waits for any more."""
+
+
+class _Work:
+    """A function in a thread, with what became of it."""
+
+    def __init__(self, function: Callable[[], Any]) -> None:
+        self._function = function
+        self.error: BaseException | None = None
+        self.ended = threading.Event()
+        self.thread = threading.Thread(target=self._run, daemon=True)
+
+    def _run(self) -> None:
+        try:
+            self._function()
+        except BaseException as error:
+            self.error = error
+        finally:
+            self.ended.set()
+
+    def leave(self) -> None:
+        """Have the thread end as soon as it can."""
+        identity = ctypes.c_ulong(self.thread.ident or 0)
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(identity, ctypes.py_object(Left))
+
+
+_left: list[_Work] = []
+
+
+def supervised(function: Callable[[], Any], limit: Limit, grace: float = 0.0) -> bool:
+    """Run `function`; False if it was left because the limit was over for `grace` seconds.
+
+    Raises what the function raises. KeyboardInterrupt leaves the function at once.
+    """
+    work = _started(function)
+    late: float | None = None
+    try:
+        while not work.ended.wait(TICK):
+            if limit.over():
+                late = late or time.monotonic()
+                if time.monotonic() - late >= grace:
+                    break
+    finally:  # also when whoever waits here is interrupted, or left itself
+        if not work.ended.is_set():
+            work.leave()
+            _left.append(work)
+    if work.ended.is_set() and work.error and not isinstance(work.error, Left):
+        raise work.error
+    return work.ended.is_set()
+
+
+def _started(function: Callable[[], Any]) -> _Work:
+    size = threading.stack_size()
+    threading.stack_size(STACK)
+    try:
+        work = _Work(function)
+        work.thread.start()
+    finally:
+        threading.stack_size(size)
+    return work
+
+
+def still_running() -> bool:
+    """Whether work that was left still runs: then a process must end without waiting for it."""
+    return any(work.thread.is_alive() for work in _left)
