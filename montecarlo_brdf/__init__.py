@@ -33,6 +33,7 @@ _HOMES = {
     "furnace": "verify",
     "identities": "verify",
     "run": "verify",
+    "stress": "verify.stress",
 }
 
 __all__ = ["__version__", *_HOMES]

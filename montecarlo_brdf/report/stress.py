@@ -17,6 +17,8 @@ from montecarlo_brdf.stability.stress import Outcome
 
 #: Precisions that a model is held to unless it is asked for others by name.
 PROMISED = ("float32", "float64")
+#: Constants of a source are doubles: long double cannot be better.
+DOUBLE = 2.0**-52
 UNASKED = "measured, not promised: --precision {} makes it a claim"
 
 
@@ -48,10 +50,10 @@ def _findings(model: Any, o: Outcome, promised: bool) -> list[Finding]:
         found.append(_safe(o, where))
     if o.draws:
         d = o.draws
-        limit = LENGTH_ROUNDINGS * o.eps
+        limit = LENGTH_ROUNDINGS * max(o.eps, DOUBLE)
         found.append(at_most("length of a sample - 1", d.length, limit, _drawn(d.where.get("length")), None))
         bad = d.nan + d.unreachable + d.weightless
-        place = d.where.get("unreachable") or d.where.get("weightless")
+        place = next((d.where[k] for k in ("nan", "unreachable", "weightless") if k in d.where), None)
         found.append(at_most("samples NaN, of pdf 0, of infinite weight", float(bad), 0.0, _drawn(place), None))
     return found
 
@@ -113,9 +115,9 @@ def _lines(f: Finding) -> list[str]:
 
 def _table(outcomes: list[Outcome], one: Result) -> Table:
     grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for name in ("precision", "points", "worst error", "ulps", "allowed", "with rounded directions",
-                 "NaN", "Inf", "< 0", "flushed", "safe from", "sample length", "verdict"):  # fmt: skip
-        grid.add_column(name, justify="right" if name != "verdict" else "left")
+    for name in ("precision", "points", "worst error", "ulps", "allowed", "with rounded inputs",
+                 "NaN", "Inf", "< 0", "flushed", "safe from", "|sample| - 1", "verdict"):  # fmt: skip
+        grid.add_column(name, justify="left" if name == "verdict" else "right", no_wrap=name == "safe from")
     for o in outcomes:
         grid.add_row(*_row(o), _verdict(one, o.precision))
     return grid

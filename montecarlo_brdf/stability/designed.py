@@ -5,6 +5,7 @@ data is; what must be exact there (the mirror of wo, one step beside it) is made
 """
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Iterator
@@ -40,6 +41,7 @@ def polar(arithmetic: Arithmetic, quick: bool) -> list[tuple[float, float]]:
     return [*at_normal[:: 2 if quick else 1], *ordinary, *at_horizon]
 
 
+@functools.lru_cache(maxsize=64)
 def directions(arithmetic: Arithmetic, width: float, quick: bool = False) -> Points:
     """All designed pairs for a lobe of the given width (of half vectors or around the mirror)."""
     grid = polar(arithmetic, quick)
@@ -142,6 +144,8 @@ def parameters(model: Model, quick: bool = False) -> list[Any]:
 def uniforms(arithmetic: Arithmetic) -> Any:
     """Triples of random numbers a generator may give and a test never draws: ends and corners."""
     e = arithmetic.eps
-    values = (0.0, arithmetic.least, arithmetic.tiny, e / 2, 0.25, 0.5, 0.75, 1.0 - e, 1.0 - e / 2)
-    choices = (0.0, 0.4, 1.0 - e / 2)
-    return arithmetic.array(np.array(list(itertools.product(values, values, choices))))
+    low = arithmetic.array([0.0, arithmetic.least, arithmetic.tiny, e / 2, 0.25, 0.5, 0.75])
+    one = arithmetic.array(1.0)  # subtract in this type: in double 1 - 1e-19 is 1
+    values = [*low, one - arithmetic.array(e), one - arithmetic.array(e / 2)]
+    choices = [low[0], arithmetic.array(0.4), values[-1]]
+    return np.array(list(itertools.product(values, values, choices)), dtype=arithmetic.dtype)

@@ -33,11 +33,11 @@ def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
 
 
 def lower_than_any_angle(points: Any, type_: Arithmetic) -> Any:
-    """Pairs with a cosine far below eps/4, the smallest of any angle of the type.
+    """Pairs with a cosine below eps/8: the smallest of any angle of the type is about eps/4.
 
     There products leave the range of normal numbers, and with it their digits: no error is judged.
     """
-    return np.minimum(points.wo[:, 2], points.wi[:, 2]).astype(np.float64) < type_.eps**2
+    return np.minimum(points.wo[:, 2], points.wi[:, 2]).astype(np.float64) < type_.eps / 8
 
 
 def judged(

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -127,7 +127,3 @@ def unit(w: Any, arithmetic: Arithmetic) -> Any:
     scale = arithmetic.function("sqrt")(w[:, 0] ** 2 + w[:, 1] ** 2 + w[:, 2] ** 2)
     return w / scale[:, None]
 
-
-def stacked(rows: Sequence[Any]) -> Any:
-    """Rows of vectors below each other."""
-    return np.concatenate(rows) if rows else np.zeros((0, 3))

@@ -49,6 +49,7 @@ def _one(rung: Rung, wo: Any, u: Any, p: Any) -> Draws:
     w = rung.sample(wo, u, p)
     bad = ~np.isfinite(w[:3]).all(axis=0)
     kept = ~bad & (w[2] > 0)
+    nowhere = {"nan": _place(wo, u, p, int(np.argmax(bad)))} if bad.any() else {}
     wo, u, w = wo[kept], u[kept], w[:, kept]
     off = np.abs(np.sqrt((w[:3].astype(np.longdouble) ** 2).sum(axis=0)) - 1.0).astype(np.float64)
     with np.errstate(all="ignore"):
@@ -57,6 +58,7 @@ def _one(rung: Rung, wo: Any, u: Any, p: Any) -> Draws:
     blown = ~np.isfinite(weight) & ~unreachable
     places = {"unreachable": unreachable, "weightless": blown}
     where = {k: _place(wo, u, p, int(np.argmax(v))) for k, v in places.items() if v.any()}
+    where |= nowhere
     if len(off):
         where["length"] = _place(wo, u, p, int(np.argmax(off)))
     return Draws(

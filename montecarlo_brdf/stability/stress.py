@@ -16,6 +16,8 @@ from montecarlo_brdf.stability.ladder import Rung, rounded
 
 #: Points per parameter set that are compared with 50 digits too: the worst, and every so many.
 EXACT_WORST, EXACT_EVERY = 4, 499
+#: Points per parameter set of a type whose only truth is 50 digits.
+MOST_EXACT = 60
 CLIMBS, ROUNDS = 6, 12
 KINDS = ("nan", "inf", "negative", "flushed")
 
@@ -71,6 +73,8 @@ def _one_set(
 ) -> list[tuple[climb.Found, Any]]:
     """Evaluate the designed set of one parameter set; its worst points, to climb from."""
     points = designed.directions(narrow.arithmetic, designed.width_of(narrow.model, p), quick)
+    if wide.arithmetic is exact():
+        points = Points(*(c[:: -(-len(points.wi) // MOST_EXACT)] for c in points))
     found = errors(narrow, wide, points, q)
     result.points += len(found.own)
     _count(result, points, q, found)
@@ -80,7 +84,7 @@ def _one_set(
         result.heat += _by_angle(points, found, float(getattr(p, name)))
     worst = [int(np.argmax(found.own)), int(np.argmax(found.total))]
     _keep(result, *(climb.at(points, q, found, i) for i in worst))
-    if not quick:
+    if not quick and wide.arithmetic is not exact():
         _against_exact(result, narrow, points, q, found)
     peers = points.wi[points.group == points.group[worst[0]]]
     return [(climb.at(points, q, found, worst[0]), peers)]

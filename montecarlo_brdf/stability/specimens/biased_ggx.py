@@ -1,8 +1,8 @@
 """GGX with 1e-6 added to its denominator, against a division by zero that cannot happen.
 
 The bias outgrows d^2 = alpha^4 below alpha = 0.03: int D cos dw falls to 0.15 at roughness 0.1 and
-0.0098 at roughness 0.05 (alpha = roughness^2). No precision helps. To
-ship: no guard; `ggx` divides by a sum of squares that is 0 for no pair of directions.
+0.0098 at roughness 0.05 (alpha = roughness^2). No precision helps. To ship: no guard; `ggx` divides
+by a sum of squares.
 """
 from __future__ import annotations
 
