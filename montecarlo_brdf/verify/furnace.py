@@ -7,7 +7,7 @@ from typing import Any
 
 from montecarlo_brdf.checks import furnace as furnace_check
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration import adaptive, probe
+from montecarlo_brdf.integration import adaptive
 from montecarlo_brdf.integration.estimators import check_theta
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Report, Result
@@ -23,6 +23,7 @@ from montecarlo_brdf.verify.common import (
     shared_progress,
     shown_parameters,
 )
+from montecarlo_brdf.verify.subject import probed, source
 
 ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0)
 
@@ -67,7 +68,7 @@ def furnace(
     results = []
     for i, one in enumerate(sets):
         variant = model.of(one)
-        probe.check(variant, one)
+        probed(variant, one)
         only = None if sampler == "all" else chosen
         case = Case(variant, one, angles, phi_o_deg, only, tolerance, seed=seed)
         share = shared_progress(progress, i, len(sets))
@@ -76,7 +77,7 @@ def furnace(
         )
         curves = furnace_check.curves(variant, one, max(angles), phi_o_deg) if curve else []
         shown = shown_parameters(variant, one)
-        results.append(Result(model.name, shown, "furnace", findings, curves))
+        results.append(Result(model.name, shown, "furnace", findings, curves, source(model)))
     settings = {
         "theta_o_deg": list(angles),
         "phi_o_deg": phi_o_deg,
