@@ -5,6 +5,7 @@ be loaded, compiled or raised, 5 output could not be written, 70 internal error,
 """
 from __future__ import annotations
 
+import contextlib
 import importlib
 import os
 import pkgutil
@@ -28,7 +29,8 @@ Examples:
 Exit codes: 0 all claims held, 1 a claim was refuted, 2 usage, 3 inconclusive,
 4 the model could not be run, 5 output could not be written, 70 internal error, 130 interrupted.
 \b
-Shell completion: eval "$(_BRDF_CHECK_COMPLETE=bash_source brdf-check)"  (or zsh_source, fish_source)
+Shell completion: eval "$(_BRDF_CHECK_COMPLETE=bash_source brdf-check)"
+(or zsh_source, fish_source)
 """
 
 
@@ -45,7 +47,16 @@ class Commands(click.Group):
             raise UserError(unknown("command", name, self.list_commands(ctx)))
         module = importlib.import_module(f"{__name__}.{name}")
         command: click.Command = module.command
+        for option in command.params:
+            if isinstance(option, click.Option):
+                option.envvar = environment_name(name, option)
         return command
+
+
+def environment_name(command: str, option: click.Option) -> str:
+    """BRDF_CHECK_FURNACE_THETA_O for --theta-o of furnace."""
+    longest = max(option.opts, key=len).lstrip("-")
+    return f"BRDF_CHECK_{command}_{longest}".replace("-", "_").upper()
 
 
 @click.group(cls=Commands, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
@@ -58,18 +69,25 @@ def commands() -> None:
 def main() -> NoReturn:
     """The console script."""
     sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115  closed by `>&-`
-    sys.exit(run(sys.argv[1:]))
+    code = run(sys.argv[1:])
+    _leave_at_once(code)
+    sys.exit(code)
+
+
+def _leave_at_once(code: int) -> None:
+    """End a process in which a model still runs that nobody waits for."""
+    supervision = sys.modules.get("montecarlo_brdf.verify.supervision")
+    if supervision and supervision.still_running():
+        with contextlib.suppress(OSError):
+            sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
 
 
 def run(arguments: list[str]) -> int:
     """Exit code of a command line; every error becomes one sentence on stderr."""
     try:
-        code = commands.main(
-            arguments,
-            prog_name="brdf-check",
-            standalone_mode=False,
-            auto_envvar_prefix="BRDF_CHECK",
-        )
+        code = commands.main(arguments, prog_name="brdf-check", standalone_mode=False)
         sys.stdout.flush()
     except (click.exceptions.Abort, KeyboardInterrupt):
         return _say("interrupted", INTERRUPTED)
@@ -85,6 +103,8 @@ def run(arguments: list[str]) -> int:
         if isinstance(error, BrokenPipeError):  # `| head`: nobody reads an error message either
             return OutputError.exit_code
         return _say(f"Error: cannot write to stdout: {error.strerror}", OutputError.exit_code)
+    except SystemExit as done:  # completion's 0, or rich's 1 at a closed pipe: no verdict
+        return OutputError.exit_code if done.code else 0
     except Exception as error:
         if os.environ.get("BRDF_CHECK_DEBUG"):
             raise

@@ -52,7 +52,7 @@ def _called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
         return function(*arguments)
     except (ZeroDivisionError, OverflowError):
         return math.nan
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         if "math domain error" in str(error):
             return math.nan
         file = model.namespace.get("__file__", "")
