@@ -1,7 +1,7 @@
 """Write the generated blocks of README.md, or check them with --check (exit code 1 if one is old).
 
-A block stands between `<!-- run: COMMAND -->` or `<!-- commands -->` and `<!-- end -->`. Commands run
-in an empty folder with the files that README itself shows (`<!-- file: NAME -->`).
+A block stands between `<!-- run: COMMAND -->` or `<!-- commands -->` and `<!-- end -->`. Commands
+run in an empty folder with the files that README itself shows (`<!-- file: NAME -->`).
 """
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import click
 import pytest
@@ -17,7 +18,8 @@ from montecarlo_brdf.cli import commands
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *ROOT.glob("docs/*.md")]
+PAGES = [ROOT / f"{name}.md" for name in ("README", "CONTRIBUTING", "CHANGELOG")]
+PAGES += ROOT.glob("docs/*.md")
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +44,8 @@ def test_an_old_block_is_seen(script: ModuleType) -> None:
 
 def test_a_failing_run_comes_first() -> None:
     first = README.split("```console\n")[1].split("```")[0]
-    assert "1.570796326794896" in first and "A / c = pi: the factor 1/pi is missing" in first
+    assert "1.570796326794896" in first
+    assert "A / c = pi: the factor 1/pi is missing" in first
     assert first.endswith("$ echo $?\n1\n")
 
 
@@ -51,14 +54,16 @@ def test_the_file_shown_is_the_file_tested(script: ModuleType) -> None:
 
 
 def test_the_python_example_runs(
-    user_file: Callable[..., Path], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    user_file: Callable[..., Path],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     example = re.search(r"```python\n(import montecarlo_brdf as mb\n.*?)```", README, re.DOTALL)
     assert example is not None
     monkeypatch.chdir(user_file(EXACT).parent)
-    names: dict[str, object] = {}
+    names: dict[str, Any] = {}
     exec(example[1], names)
-    assert capsys.readouterr().out.startswith("0.5") and names["report"].verdict == "pass"  # type: ignore[attr-defined]
+    assert capsys.readouterr().out.startswith("0.5") and names["report"].verdict == "pass"
 
 
 def test_every_command_has_help_with_an_example(cli: Callable[..., Outcome]) -> None:
@@ -115,10 +120,10 @@ def test_the_worked_example_of_contributing_is_a_model(
     model, reference = re.findall(r"```python\n(\"\"\".*?)```", page, re.DOTALL)
     monkeypatch.setattr(sys, "path", sys.path[:])
     path = tmp_path / "soft.py"
-    names: dict[str, object] = {}
+    names: dict[str, Any] = {}
     exec(reference, names)
-    truth = names["albedo"](0.5, ks=0.7)  # type: ignore[operator]
-    path.write_text(model + f"\n\ndef albedo(cos_theta_o, p):\n    return {truth.value / 0.7} * p.ks\n")
+    truth = names["albedo"](0.5, ks=0.7).value / 0.7
+    path.write_text(f"{model}\n\ndef albedo(cos_theta_o, p):\n    return {truth} * p.ks\n")
     quick = ("furnace", "--model", path, "--theta-o", 60, "-p", "ks=0.7")
     assert cli(*quick).code == 0
     path.write_text(path.read_text().replace("1.5", "1.6"))

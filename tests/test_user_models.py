@@ -173,5 +173,7 @@ def test_prepare_runs_once_per_parameter_set(user_file: Write) -> None:
 
 def test_a_model_beside_its_helpers(user_file: Write) -> None:
     user_file("SCALE = 0.1\ndef shade(x):\n    return SCALE * x\n", "shading_helper.py")
-    path = user_file("import shading_helper\ndef f(wo, wi, p):\n    return shading_helper.shade(2.0)\n")
+    path = user_file(
+        "import shading_helper\ndef f(wo, wi, p):\n    return shading_helper.shade(2.0)\n"
+    )
     assert albedo(path) == pytest.approx(0.2 * math.pi, rel=1e-14)
