@@ -8,7 +8,7 @@ Heitz 2014),
 
 and t_max is the image of mu_i = 0. Both variables are logarithmic in the way the problem is:
 
-    k = sinh y, so t_max = e^y, with y = asinh(tan theta_o) sin(beta), beta uniform;
+    k = sinh y, so t_max = e^y, with y = asinh(tan theta_o) cos(beta), beta uniform;
     t = width sinh v.
 
 So lobes of any width and views at any distance from the horizon cost only logarithmically more
@@ -54,6 +54,12 @@ Brdf = Callable[[Geometry], Array]
 Kinks = Callable[[Array], tuple[Array, ...]]
 
 
+def horizon(k: Array) -> Array:
+    """t_max = k + sqrt(k^2 + 1), which cancels for k < 0."""
+    size = np.abs(k) + np.sqrt(k * k + 1.0)
+    return np.where(k > 0.0, size, 1.0 / size)
+
+
 def azimuths(tan_o: float, n: int, break_at: float | None) -> tuple[Array, Array]:
     """Nodes k and weights of the integral over the half circle of phi, as columns.
 
@@ -62,27 +68,25 @@ def azimuths(tan_o: float, n: int, break_at: float | None) -> tuple[Array, Array
     only piecewise smooth: Gauss on either side.
     """
     end = np.arcsinh(tan_o)
-    edges = [-0.5 * np.pi, 0.5 * np.pi]
     if break_at is None:
-        beta = (np.arange(n) + 0.5) * (np.pi / n) - 0.5 * np.pi
-        weight = np.full(n, np.pi / n)
+        beta, weight = (np.arange(n) + 0.5) * (np.pi / n), np.full(n, np.pi / n)
     else:
+        edges = [0.0, np.pi]
         if abs(break_at) < tan_o:
-            edges.insert(1, float(np.arcsin(np.arcsinh(break_at) / end)))
+            edges.insert(1, float(np.arccos(np.arcsinh(break_at) / end)))
         beta, weight = panels(clustered(n), edges)
-    y = end * np.sin(beta)
-    to_end = 2.0 * end * np.sin(0.25 * np.pi - 0.5 * beta) ** 2
-    to_start = 2.0 * end * np.sin(0.25 * np.pi + 0.5 * beta) ** 2
+    y = end * np.cos(beta)
+    # sinh^2(end) - sinh^2(y) = sinh(end - y) sinh(end + y), each without cancellation
+    to_end, to_start = 2.0 * end * np.sin(0.5 * beta) ** 2, 2.0 * end * np.cos(0.5 * beta) ** 2
     sine_phi = np.sqrt(np.sinh(to_end) * np.sinh(to_start))  # times tan_o
-    return np.sinh(y)[:, None], (weight * end * np.cos(beta) * np.cosh(y) / sine_phi)[:, None]
+    return np.sinh(y)[:, None], (weight * end * np.sin(beta) * np.cosh(y) / sine_phi)[:, None]
 
 
 def slopes(
     mu_o: float, k: Array, edges: list[Array], width: Array | float, n: int
 ) -> tuple[Geometry, Array]:
     """Nodes in t on every panel between the edges (columns, like k), and the weights t dt."""
-    root = np.sqrt(k * k + 1.0)
-    t_max = np.where(k > 0.0, k + root, 1.0 / (root + np.abs(k)))
+    t_max = horizon(k)
     nodes = clustered(n)
     last = np.arcsinh(t_max / width)
     ends = [np.arcsinh(edge / width) for edge in edges]
@@ -127,7 +131,7 @@ def slope_albedo(
 
     def rule(size: float) -> Sum:
         k, azimuth_weight = azimuths(tan_o, node_count(size * n_azimuth), azimuth_break)
-        end = np.minimum(k + np.hypot(k, 1.0), reach)
+        end = np.minimum(horizon(k), reach)
         inner = [np.clip(edge, 0.0, end) for edge in (kinks(k) if kinks else ())]
         g, weight = slopes(
             mu_o, k, [np.zeros_like(k), *inner, end], width, node_count(size * n_slope)
