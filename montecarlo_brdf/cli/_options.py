@@ -25,8 +25,24 @@ def model_names(ctx: Any, param: Any, incomplete: str) -> list[str]:
     return [n for n in names() if n.startswith(incomplete)]
 
 
+def given() -> list[str]:
+    """The options of the current command that were given, not left at their defaults."""
+    context = click.get_current_context()
+    default = (click.core.ParameterSource.DEFAULT, click.core.ParameterSource.DEFAULT_MAP, None)
+    return [name for name in context.params if context.get_parameter_source(name) not in default]
+
+
 def model_option(command: Callable[..., Any]) -> Callable[..., Any]:
     """--model and -p."""
+    return _model_options(command, required=True)
+
+
+def optional_model_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The same for a command that knows what to do without."""
+    return _model_options(command, required=False)
+
+
+def _model_options(command: Callable[..., Any], required: bool) -> Callable[..., Any]:
     command = click.option(
         "-p",
         "--param",
@@ -39,7 +55,7 @@ def model_option(command: Callable[..., Any]) -> Callable[..., Any]:
     return click.option(
         "--model",
         "spec",
-        required=True,
+        required=required,
         metavar="MODEL",
         shell_complete=model_names,
         help="A built-in model, my_brdf.py, or my_brdf.py:name. [--model lambert]",
@@ -77,8 +93,9 @@ def output_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option("--export-json", type=click.Path(path_type=Path), metavar="FILE",
                      help="Write the whole report. [--export-json report.json]"),
         click.option("--inconclusive", type=click.Choice(["pass", "fail"]), default=None,
-                     help="Count inconclusive as pass (exit 0) or fail (exit 1) instead of exit 3."),
-        click.option("-v", "--verbose", is_flag=True, help="Show every estimator of every finding."),
+                     help="Count inconclusive as pass (exit 0) or fail (exit 1), not as exit 3."),
+        click.option("-v", "--verbose", is_flag=True,
+                     help="Show every estimator of every finding."),
     ]  # fmt: skip
     return functools.reduce(lambda done, option: option(done), reversed(options), command)
 

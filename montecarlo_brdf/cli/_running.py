@@ -2,81 +2,99 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf import loading, verify
-from montecarlo_brdf.cli import _options
+from montecarlo_brdf import verify
+from montecarlo_brdf.cli import _options, _project
+from montecarlo_brdf.cli._jobs import Job, from_options
 from montecarlo_brdf.cli._progress import progress
-from montecarlo_brdf.cli._values import number, numbers, parameter_sets
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.report.findings import Report
+from montecarlo_brdf.report.findings import Finding, Report, Result
 
 INTERRUPTED = 130
+#: options that stand above a project's file if they are given -> the field of Job
+ABOVE = {"samples": "samples", "points": "points", "tolerance": "tolerance"}
+#: options that only make sense with --model
+LOCAL = {
+    "assignments": "-p",
+    "names": "--check",
+    "theta_o": "--theta-o",
+    "phi_o": "--phi-o",
+    "against": "--against",
+}
 
 
-def run_all(options: dict[str, Any]) -> int:
-    """Run the checks of every model asked for and deliver one report; the exit code."""
+def run_all(options: dict[str, Any], given: Sequence[str]) -> int:
+    """Run the checks of every model asked for and deliver one report; the exit code.
+
+    given: the options that were given, not left at their defaults.
+    """
     _options.check_outputs(options["form"], options["export_json"])
-    report = gather(options)
+    seed = _options.seed_of(options["seed"])
+    if options["spec"]:
+        jobs = from_options(options, seed)
+    else:
+        project = _asked_project(options, seed, given)
+        jobs = project.jobs
+        options["max_time"] = options["max_time"] or project.max_time
+        options["inconclusive"] = options["inconclusive"] or project.inconclusive
+    report = gather(jobs, options)
     code = _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
     )
     return INTERRUPTED if report.measured.get("interrupted") else code
 
 
-def gather(options: dict[str, Any]) -> Report:
-    """One report over all models."""
-    specs = models_of(options["spec"])
-    seed = _options.seed_of(options["seed"])
+def _asked_project(options: dict[str, Any], seed: int, given: Sequence[str]) -> _project.Project:
+    """The project of --config, or of the folder one stands in."""
+    path = options["config"] or _project.find(Path())
+    if path is None:
+        raise UserError(
+            f"give --model, or a {_project.FILE} with [[models]] in this folder or one above it"
+        )
+    local = [flag for name, flag in LOCAL.items() if name in given]
+    if local:
+        raise UserError(f"{', '.join(local)} needs --model: {path} says what to check of which model")
+    overrides = {field: options[name] for name, field in ABOVE.items() if name in given}
+    return _project.read(path, {**overrides, **({"seed": seed} if "seed" in given else {})})
+
+
+def gather(jobs: Sequence[Job], options: dict[str, Any]) -> Report:
+    """One report over all jobs, also when it is interrupted."""
     limit = options["max_time"]
     if limit is not None and not limit > 0.0:
         raise UserError(f"max-time must be a positive number of seconds, not {limit}")
     deadline = verify.Deadline(math.inf if limit is None else limit)
     reports: list[Report] = []
-    with progress("run") as update:
-        for k, spec in enumerate(specs):
-            reports.append(
-                _one(spec, options, seed, deadline, lambda done, k=k: update((k + done) / len(specs)))
-            )
-            if reports[-1].measured.get("interrupted"):
-                break
+    try:
+        with progress("run") as update:
+            for k, job in enumerate(jobs):
+                share = lambda done, k=k: update((k + done) / len(jobs))  # noqa: E731
+                rest = {"threads": options["threads"], "deadline": deadline, "progress": share}
+                reports.append(job.run(**rest))
+                if reports[-1].measured["interrupted"]:
+                    break
+    except KeyboardInterrupt:  # between two runs
+        reports.append(_not_begun(jobs[len(reports)]))
+    if reports[-1].measured["interrupted"]:
+        reports += [_not_begun(job) for job in jobs[len(reports) :]]
     return merged(reports)
 
 
-def _one(spec: str, options: dict[str, Any], seed: int, deadline: Any, update: Any) -> Report:
-    model = loading.load(spec)
-    assignments = options["assignments"]
-    names = options["names"]
-    return verify.run(
-        model,
-        parameter_sets(model, assignments) if assignments else None,
-        names=None if names == "all" else names.split(","),
-        theta_o_deg=numbers(options["theta_o"], "theta-o"),
-        phi_o_deg=number(options["phi_o"], "phi-o"),
-        fixed=[a.partition("=")[0] for a in assignments],
-        against=loading.load(options["against"]) if options["against"] else None,
-        points=options["points"],
-        samples=verify.RUN_SAMPLES if options["samples"] is None else options["samples"],
-        seed=seed,
-        threads=options["threads"],
-        tolerance=options["tolerance"],
-        deadline=deadline,
-        progress=update,
-    )
-
-
-def models_of(spec: str) -> list[str]:
-    """'all', or names separated by commas."""
-    if spec == "all":
-        return loading.names()
-    return [one.strip() for one in spec.split(",")]
+def _not_begun(job: Job) -> Report:
+    """What an interruption leaves of a job."""
+    finding = Finding("run", {}, "inconclusive", note="not begun: interrupted")
+    result = Result(job.model.name, {}, "run", [finding])
+    return Report("run", {}, [result], {"seconds": 0.0, "interrupted": True})
 
 
 def merged(reports: list[Report]) -> Report:
-    """One report of several; settings are the same in all."""
+    """One report of several; the settings are those of the first."""
     measured = {
         "seconds": sum(r.measured["seconds"] for r in reports),
-        "interrupted": any(r.measured.get("interrupted") for r in reports),
+        "interrupted": any(r.measured["interrupted"] for r in reports),
     }
     results = [result for r in reports for result in r.results]
     return Report(reports[0].command, reports[0].settings, results, measured)

@@ -1,0 +1,200 @@
+"""A project's own list of what to check: brdf-check.toml, or [tool.brdf-check] in pyproject.toml.
+
+The keys and what they mean: docs/ci.md. A mistake is reported with its line and what is allowed.
+"""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from montecarlo_brdf import checks, loading
+from montecarlo_brdf.cli._jobs import Job, with_parameters
+from montecarlo_brdf.cli._values import numbers
+from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.integration.estimators import check_theta
+from montecarlo_brdf.sampling.points import SETS
+from montecarlo_brdf.scene.toml import Path_, Table, parse
+
+FILE = "brdf-check.toml"
+PYPROJECT = "pyproject.toml"
+INSIDE: Path_ = ("tool", "brdf-check")
+#: may stand at the top and in each [[models]]
+SHARED = ("checks", "theta_o", "phi_o", "points", "samples", "seed", "tolerance", "tolerances")
+
+
+class Project(NamedTuple):
+    """What a file asks for."""
+
+    jobs: list[Job]
+    max_time: float | None
+    inconclusive: str | None
+
+
+class Section(Table):
+    """A table of the file."""
+
+    def title(self) -> str:
+        """The file's own name for what stands at its top."""
+        if self.path in ((), INSIDE):
+            return self.file.name
+        if isinstance(self.path[-1], int):
+            return super().title()
+        return f"[{'.'.join(str(part) for part in self.path if not isinstance(part, int))}]"
+
+    def _below(self, data: Mapping[str, Any], path: Path_) -> Section:
+        return Section(self.file, self.text, data, path)
+
+
+def find(folder: Path) -> Path | None:
+    """The file that speaks for a folder: in it, or in the nearest folder above it."""
+    for place in (folder, *folder.resolve().parents):
+        if (place / FILE).is_file():
+            return place / FILE
+        if speaks(place / PYPROJECT):
+            return place / PYPROJECT
+    return None
+
+
+def speaks(path: Path) -> bool:
+    """Whether a pyproject.toml has a [tool.brdf-check]."""
+    if not path.is_file() or "brdf-check" not in path.read_text(encoding="utf-8", errors="replace"):
+        return False
+    tools = parse(path)[0].get("tool", {})
+    return isinstance(tools, dict) and INSIDE[1] in tools
+
+
+def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
+    """The jobs of a file; `overrides` (fields of Job) stand above what it says."""
+    data, text = parse(path)
+    at: Path_ = INSIDE if path.name == PYPROJECT else ()
+    for name in at:
+        data = data.get(str(name), {})
+    top = Section(path, text, data, at)
+    limit = top.number("max_time", low=1e-3) if "max_time" in data else None
+    inconclusive = "inconclusive" in data and top.choice("inconclusive", ("pass", "fail"))
+    top.know("inconclusive", "max_time", *SHARED)
+    shared, tolerances = _shared(top, {}, {})
+    entries = top.tables("models")
+    top.done()
+    if not entries:
+        raise top.error('there is nothing to check: add [[models]] with model = "ggx"')
+    jobs = [job for e in entries for job in _jobs(e, shared, tolerances, overrides or {})]
+    return Project(jobs, limit, inconclusive or None)
+
+
+def _jobs(
+    entry: Table, shared: dict[str, Any], tolerances: dict[str, float], overrides: Mapping[str, Any]
+) -> Iterator[Job]:
+    """The jobs of one [[models]]: one for each tolerance that some of its checks have."""
+    entry.know("model", "params", "against", *SHARED)
+    shared, tolerances = _shared(entry, shared, tolerances)
+    model = _model(entry, "model")
+    if "against" in entry.data:
+        shared["against"] = _model(entry, "against")
+    assignments = _assignments(entry)
+    entry.done()
+    try:
+        job = with_parameters(model, assignments, {**shared, **overrides})
+    except UserError as error:
+        raise entry.error(str(error), "params") from error
+    names = job.checks or tuple(checks.names())
+    if "tolerance" in overrides or not tolerances:
+        yield job
+        return
+    for tolerance in dict.fromkeys(tolerances.get(n, job.tolerance) for n in names):
+        same = tuple(n for n in names if tolerances.get(n, job.tolerance) == tolerance)
+        yield job._replace(checks=same, tolerance=tolerance)
+
+
+def _shared(
+    table: Table, above: dict[str, Any], tolerances: dict[str, float]
+) -> tuple[dict[str, Any], dict[str, float]]:
+    """What may stand at the top and in [[models]]: fields of Job, and a tolerance per check."""
+    found = dict(above)
+    data = table.data
+    if "checks" in data:
+        found["checks"] = _checks(table, "checks")
+    if "theta_o" in data:
+        found["theta_o_deg"] = _angles(table)
+    if "phi_o" in data:
+        found["phi_o_deg"] = table.number("phi_o")
+    if "points" in data:
+        found["points"] = table.choice("points", SETS)
+    for key, low, high in (("samples", 1, 1 << 40), ("seed", 0, (1 << 64) - 1)):
+        if key in data:
+            found[key] = _whole(table, key, low, high)
+    if "tolerance" in data:
+        found["tolerance"] = table.number("tolerance", low=0.0, high=1.0 - 1e-12)
+    return found, {**tolerances, **_tolerances(table)}
+
+
+def _checks(table: Table, key: str) -> tuple[str, ...]:
+    value = table.take(key)
+    names = [value] if isinstance(value, str) else value
+    known = checks.names()
+    if not isinstance(names, list) or not names:
+        raise table.error(f"{key} must be a list of names (choose from {', '.join(known)})", key)
+    for name in names:
+        if name not in known:
+            raise table.error(unknown("check", name, known), key)
+    return tuple(names)
+
+
+def _tolerances(table: Table) -> dict[str, float]:
+    if "tolerances" not in table.data:
+        return {}
+    inner = table.table("tolerances")
+    inner.know(*checks.names())
+    inner.done()
+    return {name: inner.number(name, low=0.0, high=1.0 - 1e-12) for name in inner.data}
+
+
+def _angles(table: Table) -> list[float]:
+    """[0, 45, 80] or "0:85:6"."""
+    value = table.take("theta_o")
+    try:
+        listed = value if isinstance(value, list) else [value]
+        angles = [a for v in listed for a in numbers(str(v), "theta_o")]
+        for angle in angles:
+            check_theta(angle, "theta_o")
+    except UserError as error:
+        raise table.error(str(error), "theta_o") from error
+    return angles
+
+
+def _whole(table: Table, key: str, low: int, high: int) -> int:
+    value = table.take(key)
+    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+        raise table.error(f"{key} must be a whole number from {low} to {high}, not {value!r}", key)
+    return value
+
+
+def _model(table: Table, key: str) -> Any:
+    """A model by name or by a path that starts at the file's folder."""
+    spec = table.text_of(key)
+    folder = table.file.parent
+    if ".py" in spec and not Path(spec).is_absolute() and folder != Path():
+        spec = os.path.relpath(folder / spec)
+    try:
+        return loading.load(spec)
+    except UserError as error:
+        wrapped = table.error(str(error), key)
+        raise type(error)(str(wrapped)) from error
+
+
+def _assignments(entry: Table) -> list[str]:
+    """params as -p takes them: a list makes cases, a list inside it a colour."""
+    if "params" not in entry.data:
+        return []
+    params = entry.table("params")
+    return [f"{name}={_text(params, name, value)}" for name, value in params.data.items()]
+
+
+def _text(params: Table, name: str, value: Any) -> str:
+    values = value if isinstance(value, list) else [value]
+    words = ["/".join(map(str, v)) if isinstance(v, list) else v for v in values]
+    if not words or any(isinstance(w, (bool, dict)) for w in words):
+        raise params.error(f"{name} must be a number, text as -p takes it, or a list of them", name)
+    return ",".join(map(str, words))
