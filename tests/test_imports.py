@@ -24,6 +24,8 @@ FLOW = (
     ("report",),
     ("verify",),
     ("cli",),
+    ("testing",),
+    ("pytest_plugin",),
     ("__main__",),
 )
 RANK = {part: rank for rank, row in enumerate(FLOW) for part in row}

@@ -11,6 +11,8 @@ from montecarlo_brdf import loading, verify
 from montecarlo_brdf.cli._values import number, numbers, parameter_sets
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Report
+from montecarlo_brdf.report.sentences import shown
+from montecarlo_brdf.verify.common import shown_parameters
 
 
 class Job(NamedTuple):
@@ -27,6 +29,13 @@ class Job(NamedTuple):
     samples: int = verify.RUN_SAMPLES
     seed: int = 0
     tolerance: float | None = None
+
+    def title(self) -> str:
+        """'lambert(albedo=0.2)'; of what is searched only the name."""
+        if self.p is None:
+            return self.model.name
+        values = shown_parameters(self.model, self.p[0]).items()
+        return f"{self.model.name}({', '.join(f'{k}={shown(v)}' for k, v in values)})"
 
     def single(self) -> list[Job]:
         """One job per parameter set."""

@@ -3,9 +3,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
-from montecarlo_brdf.report.findings import Finding, Result
+from montecarlo_brdf.report.findings import Finding, Report, Result
 from montecarlo_brdf.statistics import with_error
 
 SYMBOLS = {
@@ -75,3 +76,16 @@ def tally(findings: Iterable[Finding]) -> str:
     counts = Counter(f.verdict for f in findings)
     order = ("pass", "fail", "error", "inconclusive", "known", "skipped")
     return ", ".join(f"{counts[v]} {v}" for v in order if counts[v])
+
+
+def failures(report: Report, verdicts: Iterable[str] = BAD, reproducible: bool = True) -> list[str]:
+    """The findings with some verdicts in full: what was found, the cause, the command."""
+    lines = []
+    wanted = set(verdicts)
+    for result in report.results:
+        for f in (f for f in result.findings if f.verdict in wanted):
+            lines.append(f"{f.verdict} {result.check}: {statement(f)}")
+            rest = explanation(f if reproducible else replace(f, reproduce=None))
+            lines += [f"    {line}" for line in rest]
+            lines += [f"    f: {result.source['file']}:{result.source['line']}"] * bool(result.source)
+    return lines

@@ -1,0 +1,83 @@
+"""A pytest plugin: collects brdf-check.toml, and pyproject.toml where it has [tool.brdf-check].
+
+One test per model, parameter set and check. Everything heavy is imported when such a file is found.
+"""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+FILE = "brdf-check.toml"
+PYPROJECT = "pyproject.toml"
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """pytest's hook: the collector for a file, if it is ours."""
+    if file_path.name == FILE or (file_path.name == PYPROJECT and _speaks(file_path)):
+        return ProjectFile.from_parent(parent, path=file_path)
+    return None
+
+
+def _speaks(path: Path) -> bool:
+    from montecarlo_brdf.cli._project import speaks
+
+    return speaks(path)
+
+
+class ProjectFile(pytest.File):
+    """A file that says what to check."""
+
+    def collect(self) -> Iterable[pytest.Item]:
+        """One item per model, parameter set and check."""
+        from montecarlo_brdf.checks import names
+        from montecarlo_brdf.cli._project import read
+        from montecarlo_brdf.errors import UserError
+
+        try:
+            project = read(self.path)
+        except UserError as error:
+            raise self.CollectError(str(error)) from error
+        for job in project.jobs:
+            for one in job.single():
+                for check in one.checks or names():
+                    name = f"{one.title()} {check}"
+                    yield CheckItem.from_parent(
+                        self, name=name, job=one._replace(checks=(check,)), project=project
+                    )
+
+
+class CheckItem(pytest.Item):
+    """One check of one model with one parameter set."""
+
+    def __init__(self, *, job: Any, project: Any, **rest: Any) -> None:
+        super().__init__(**rest)
+        self.job, self.project = job, project
+
+    def runtest(self) -> None:
+        """Fail if a claim is refuted, or undecided unless the file says that this passes."""
+        from montecarlo_brdf import verify
+        from montecarlo_brdf.testing import require
+
+        limit = self.project.max_time
+        report = self.job.run(deadline=verify.Deadline(limit) if limit else None)
+        if report.measured["interrupted"]:
+            raise KeyboardInterrupt
+        require(report, self.project.inconclusive or "fail")
+        if all(f.verdict == "skipped" for r in report.results for f in r.findings):
+            notes = dict.fromkeys(f.note for r in report.results for f in r.findings if f.note)
+            pytest.skip("; ".join(notes) or "nothing to check")
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """Sentences instead of a traceback through this package."""
+        from montecarlo_brdf.errors import UserError
+
+        if isinstance(excinfo.value, (AssertionError, UserError)):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Path, int | None, str]:
+        """Where the test is from."""
+        return self.path, None, f"check {self.name}"
