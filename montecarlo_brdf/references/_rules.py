@@ -96,7 +96,9 @@ GROWTH = 1.3  # ratio of their sizes per dimension, more than a step of `node_co
 ROUNDING = 64.0 * EPSILON  # relative: some fifty operations per term, some of them common to all
 
 
-def converge(rule: Callable[[float], Sum], rounds: int = 8) -> tuple[float, float]:
+def converge(
+    rule: Callable[[float], Sum], rounds: int = 8, enough: float = ENOUGH
+) -> tuple[float, float]:
     """Refine rule(size) until two sizes agree; return the finer value and a bound on its error.
 
     The difference bounds the error of the finer set where each refinement at least halves it, as
@@ -108,7 +110,7 @@ def converge(rule: Callable[[float], Sum], rounds: int = 8) -> tuple[float, floa
         size *= GROWTH
         fine = rule(size)
         difference = abs(fine.value - coarse.value)
-        if difference <= ENOUGH * fine.magnitude:
+        if difference <= enough * fine.magnitude:
             break
         ratio = min(difference / before, 0.95) if before else 0.5
         trust = max(1.0, ratio / (1.0 - ratio))

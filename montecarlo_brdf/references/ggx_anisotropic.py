@@ -99,5 +99,5 @@ def bihemispherical(*, alpha_x: float, alpha_y: float, f0: float) -> Truth:
         bounds.append(float(np.abs(mean[:, 1]).sum()))
         return total(mean[:, 0])
 
-    value, error = converge(rule, rounds=3)
+    value, error = converge(rule, rounds=3, enough=1e-11)
     return independent((value, error + bounds[-1]), SOURCE)
