@@ -1,4 +1,4 @@
-"""Assertions about BRDFs for a test suite: each raises AssertionError with the finding and its cause.
+"""Assertions about BRDFs for a test suite: each raises AssertionError with finding and cause.
 
     from montecarlo_brdf.testing import assert_conserves_energy
 

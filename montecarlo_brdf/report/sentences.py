@@ -78,6 +78,11 @@ def tally(findings: Iterable[Finding]) -> str:
     return ", ".join(f"{counts[v]} {v}" for v in order if counts[v])
 
 
+def origin(result: Result) -> list[str]:
+    """'f: my_brdf.py:12', where it is known."""
+    return [f"f: {result.source['file']}:{result.source['line']}"] if result.source else []
+
+
 def failures(report: Report, verdicts: Iterable[str] = BAD, reproducible: bool = True) -> list[str]:
     """The findings with some verdicts in full: what was found, the cause, the command."""
     lines = []
@@ -86,6 +91,5 @@ def failures(report: Report, verdicts: Iterable[str] = BAD, reproducible: bool =
         for f in (f for f in result.findings if f.verdict in wanted):
             lines.append(f"{f.verdict} {result.check}: {statement(f)}")
             rest = explanation(f if reproducible else replace(f, reproduce=None))
-            lines += [f"    {line}" for line in rest]
-            lines += [f"    f: {result.source['file']}:{result.source['line']}"] * bool(result.source)
+            lines += [f"    {line}" for line in [*rest, *origin(result)]]
     return lines

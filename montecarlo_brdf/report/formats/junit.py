@@ -12,7 +12,7 @@ from collections import Counter
 from xml.etree import ElementTree
 
 from montecarlo_brdf.report.findings import Finding, Report, Result
-from montecarlo_brdf.report.sentences import case, explanation, place, statement
+from montecarlo_brdf.report.sentences import case, explanation, origin, place, statement
 from montecarlo_brdf.report.text import grouped
 
 SUFFIX = ".xml"
@@ -77,7 +77,7 @@ def _case(
     # a dot separates packages in a class name, so those of numbers and file names must go
     owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
     test = ElementTree.SubElement(suite, "testcase", classname=owner, name=title)
-    lines = [statement(finding), *explanation(finding), *_source(result)]
+    lines = [statement(finding), *explanation(finding), *origin(result)]
     outcome = outcomes.get(finding.verdict)
     if outcome:
         message = finding.note or "skipped" if outcome == "skipped" else statement(finding)
@@ -85,10 +85,6 @@ def _case(
         told.text = _legal("\n".join(lines))
     else:
         ElementTree.SubElement(test, "system-out").text = _legal("\n".join(lines))
-
-
-def _source(result: Result) -> list[str]:
-    return [f"f: {result.source['file']}:{result.source['line']}"] if result.source else []
 
 
 def _counts(suite: ElementTree.Element) -> dict[str, int]:
