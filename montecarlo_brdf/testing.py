@@ -116,7 +116,8 @@ def as_model(brdf: Any, p: Any = None) -> Model:
     f = getattr(brdf, "f", brdf)
     if not callable(f):
         raise UserError(f"a BRDF is a model, a name, a path, or has a function f, not {brdf!r}")
-    inside = {k: getattr(brdf, k) for k in dir(brdf) if not k.startswith("_")} if f is not brdf else {}
+    names = () if f is brdf else (k for k in dir(brdf) if not k.startswith("_"))
+    inside = {name: getattr(brdf, name) for name in names}
     file = getattr(getattr(f, "__code__", None), "co_filename", "")
     namespace = {"__doc__": brdf.__doc__, "__file__": file, **inside, "f": f}
     if isinstance(p, tuple) and "Params" not in namespace:

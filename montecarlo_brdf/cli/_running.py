@@ -56,7 +56,7 @@ def _asked_project(options: dict[str, Any], seed: int, given: Sequence[str]) -> 
         )
     local = [flag for name, flag in LOCAL.items() if name in given]
     if local:
-        raise UserError(f"{', '.join(local)} needs --model: {path} says what to check of which model")
+        raise UserError(f"{', '.join(local)} needs --model: {path} says what to check of which")
     overrides = {field: options[name] for name, field in ABOVE.items() if name in given}
     return _project.read(path, {**overrides, **({"seed": seed} if "seed" in given else {})})
 
