@@ -15,7 +15,15 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.checks import fitness, interiors, truth
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import BOUND_TOLERANCE, Claim, MeanClaim, Measurement, Reference
-from montecarlo_brdf.integration.estimators import Plan, estimates, integrand_name, samplers_of
+from montecarlo_brdf.integration import integrands
+from montecarlo_brdf.integration.estimators import (
+    Plan,
+    Subject,
+    estimates,
+    evaluate,
+    integrand_name,
+    samplers_of,
+)
 from montecarlo_brdf.sampling.points import sobol
 from montecarlo_brdf.vectors import Vec, from_degrees
 
@@ -27,6 +35,7 @@ LAST = 89.9
 INTERIOR = 20  # parameter sets of the scan
 SCAN = Plan(samples=1 << 10, replicates=4)
 CLIMB = Plan(samples=1 << 13, replicates=8)
+FIRST_STEP, LAST_STEP = 0.15, 0.003
 QUANTITIES = {"albedo": "A", "reverse": "R"}
 
 
@@ -76,15 +85,13 @@ def worst(case: Case, quantity: str) -> Spot:
 
 
 def _climb(case: Case, quantity: str, spot: Spot) -> Spot:
+    """Steps to the best neighbour, halved where there is none better."""
     spot = _spot(case, quantity, spot.theta, spot.position, CLIMB)
-    step = 0.15
-    for _ in range(6):
-        around = [s for s in _neighbours(spot, step)]
-        best = max((_spot(case, quantity, t, at, CLIMB) for t, at in around), key=lambda s: s.value)
-        if best.value > spot.value:
-            spot = best
-        else:
-            step *= 0.5
+    step = FIRST_STEP
+    while step > LAST_STEP:
+        around = [_spot(case, quantity, t, at, CLIMB) for t, at in _neighbours(spot, step)]
+        best = max(around, key=lambda s: s.value)
+        spot, step = (best, step) if best.value > spot.value else (spot, 0.5 * step)
     return spot
 
 
@@ -99,12 +106,19 @@ def _neighbours(spot: Spot, step: float) -> Iterator[tuple[float, tuple[float, .
 
 
 def _spot(case: Case, quantity: str, theta: float, position: tuple[float, ...], plan: Plan) -> Spot:
-    """The value at a spot by the sampler that sees the lobe; the judge looks closer later."""
-    p = parameters(case, Spot(theta, position, 0.0))
-    sampler = samplers_of(case.model, quantity)[-1]
-    names = [integrand_name(case.model, quantity, sampler)]
-    row = estimates(case.model, p, _fixed(case, theta), names, plan, (NAME, quantity))[0]
-    return Spot(theta, position, row[0].mean if math.isfinite(row[0].mean) else math.inf)
+    """The value at a spot by the sampler that sees the lobe; the judge looks closer later.
+
+    All spots use the same random numbers: differences between them are not noise.
+    """
+    model, p = case.model, parameters(case, Spot(theta, position, 0.0))
+    sampler = samplers_of(model, quantity)[-1]
+    integrand = getattr(integrands, integrand_name(model, quantity, sampler))
+    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
+    subject = Subject(
+        (model.name,), {k: v for k, v in bound.items() if v is not None}, [model.prepared(p)]
+    )
+    e = evaluate(subject, _fixed(case, theta), [integrand], plan, (NAME, quantity), common=True)[0][0]
+    return Spot(theta, position, e.mean if math.isfinite(e.mean) else math.inf)
 
 
 def _fixed(case: Case, theta: float) -> Vec:

@@ -15,8 +15,20 @@ WIDE = 50.0  # a range whose ends differ by more than this factor is searched by
 def between(low: float, high: float, t: float) -> float:
     """A value at t in [0, 1] of a range, by its logarithm where the range is wide."""
     if low > 0.0 and high > WIDE * low:
-        return low * (high / low) ** t
+        return float(low * (high / low) ** t)
+    if low == 0.0 and high > WIDE:
+        return math.expm1(t * math.log1p(high))
     return low + (high - low) * t
+
+
+def share(low: float, high: float, value: float) -> float:
+    """The t of a value: the inverse of `between`."""
+    value = min(max(value, low), high)
+    if low > 0.0 and high > WIDE * low:
+        return math.log(value / low) / math.log(high / low)
+    if low == 0.0 and high > WIDE:
+        return math.log1p(value) / math.log1p(high)
+    return (value - low) / (high - low)
 
 
 def at(case: Case, t: dict[str, float]) -> Any:
@@ -28,13 +40,8 @@ def at(case: Case, t: dict[str, float]) -> Any:
 
 def position(case: Case, p: Any) -> dict[str, float]:
     """Where a parameter set lies in the ranges: the inverse of `at`."""
-    found = {}
-    for n in case.free:
-        low, high = search_range(case.model, n) or (0.0, 1.0)
-        value = min(max(getattr(p, n), low), high)
-        wide = low > 0.0 and high > WIDE * low
-        found[n] = math.log(value / low) / math.log(high / low) if wide else (value - low) / (high - low)
-    return found
+    ranges = {n: search_range(case.model, n) or (0.0, 1.0) for n in case.free}
+    return {n: share(*ends, getattr(p, n)) for n, ends in ranges.items()}
 
 
 def sets(case: Case, count: int = INTERIORS) -> Iterator[Any]:

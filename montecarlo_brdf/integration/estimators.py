@@ -237,14 +237,19 @@ def evaluate(
     functions: Sequence[Any],
     plan: Plan,
     label: tuple[Any, ...],
+    common: bool = False,
 ) -> list[list[Estimate]]:
-    """The same for any functions bound into integrands; `label` names the stream with the subject."""
+    """The same for any functions bound into integrands; `label` names the stream with the subject.
+
+    common: the same random numbers for every direction, so that what is searched is smooth.
+    """
     check_samples(plan.samples)
     if plan.points not in SETS:
         raise UserError(unknown("point set", plan.points, SETS))
     replicates = max(1, min(plan.replicates, plan.samples))
     per_replicate = _per_replicate(plan, replicates)
-    key = stream(plan.seed, plan.points, *subject.identity, *label, *fixed)
+    place = () if common else fixed
+    key = stream(plan.seed, plan.points, *subject.identity, *label, *place)
     rows = []
     for group in _groups(subject.sets, len(functions)):
         layout, numbers = parameters.pack(group, kernel.QUERY)
