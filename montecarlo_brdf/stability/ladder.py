@@ -127,3 +127,9 @@ def unit(w: Any, arithmetic: Arithmetic) -> Any:
     scale = arithmetic.function("sqrt")(w[:, 0] ** 2 + w[:, 1] ** 2 + w[:, 2] ** 2)
     return w / scale[:, None]
 
+
+def in_precision(function: Callable[..., Any], arithmetic: Arithmetic, *columns: Any) -> Any:
+    """Any function of numbers, applied to columns of numbers in a precision."""
+    special = Specialiser(lambda one: one, twins(arithmetic))
+    columns = tuple(arithmetic.array(c) for c in columns)
+    return over_points(columns, special.clone(function, {}), arithmetic)[0]
