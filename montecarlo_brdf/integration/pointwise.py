@@ -16,6 +16,7 @@ PARAMETERS: Any = None
 FUNCTION: Any = None
 WRITE: Any = None
 
+MOST = 1 << 13  # directions of a call
 DRAWN = 4  # numbers per draw: x, y, z and the weight, NaN if the sampler returns none
 
 
@@ -107,8 +108,9 @@ class Pointwise:
         a, b = np.broadcast_arrays(np.atleast_2d(a), np.atleast_2d(b))
         data = np.concatenate([self._numbers, np.concatenate([a, b], axis=1).ravel()])
         data = np.ascontiguousarray(data, dtype=np.float64)
-        ints = np.array([len(a), len(self._numbers)], dtype=np.int64)
         out = np.full((len(a), width), np.nan)
-        if kernel(ints.ctypes.data, data.ctypes.data, out.ctypes.data) != 0:
-            raise ModelError(f"model {self.model.name} raised an exception while it was evaluated")
+        for k in range(0, len(a), MOST):  # Ctrl-C waits for a call to end
+            ints = np.array([min(MOST, len(a) - k), len(self._numbers) + 6 * k], dtype=np.int64)
+            if kernel(ints.ctypes.data, data.ctypes.data, out[k:].ctypes.data) != 0:
+                raise ModelError(f"model {self.model.name} raised an exception while evaluated")
         return out

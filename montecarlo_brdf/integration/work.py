@@ -2,23 +2,26 @@
 
 The cut never shows in the result: samples are taken in chunks of fixed size, each from a zero
 state, and merged in a fixed order whatever thread computed them. Memory does not grow with the
-number of samples, and no call lasts long enough to make Ctrl-C wait.
+number of samples, and no call lasts long enough to make Ctrl-C wait: a kernel carries its state on
+from call to call, so slow ones are cut into as many calls as they need, down to single blocks.
 """
 from __future__ import annotations
 
 import ctypes
 import itertools
+import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.integration.kernel import STATE
+from montecarlo_brdf.integration.kernel import BLOCK, STATE
 from montecarlo_brdf.integration.native import NativeKernel
 from montecarlo_brdf.sampling.keys import NONE, Shape
 from montecarlo_brdf.statistics import Moments, merged
 
 CHUNK = 1 << 17
+LONGEST = 0.1  # seconds that a call should take at most
 Progress = Callable[[float], None]
 
 
@@ -113,14 +116,41 @@ class Ladder:
         self._reals = (ctypes.c_double * len(reals))(*reals)
         self._out = ctypes.c_double * (STATE * width * replicates)
         self._at = ctypes.addressof(self._ints), ctypes.addressof(self._reals)
+        self._first, self._replicates = first, replicates
+        self._stride = 8 * STATE * width  # bytes of a replicate's states
 
     def states(self, count: int, shape: Shape = NONE, start: int = 0) -> list[float]:
         """STATE numbers per replicate and result, of samples [start, start + count)."""
-        self._ints[3:] = (start, count, *shape)
         out = self._out()
-        if self._kernel(*self._at, ctypes.addressof(out)) != 0:
-            raise ModelError("the model raised an exception while it was sampled")
+        at = ctypes.addressof(out)
+        self._ints[5:] = shape
+        for skipped, many, done, size in self._pieces(count):
+            self._ints[1:5] = (self._first + skipped, many, start + done, size)
+            began = time.perf_counter()
+            if self._kernel(*self._at, at + skipped * self._stride) != 0:
+                raise ModelError("the model raised an exception while it was sampled")
+            self._kernel.pace = (time.perf_counter() - began) / (many * size)  # type: ignore[attr-defined]
         return out[:]
+
+    def _pieces(self, count: int) -> Iterator[tuple[int, int, int, int]]:
+        """(replicates before, replicates, samples before, samples) of each call: whole replicates,
+        or whole blocks of one, as many as the pace of the call before allows."""
+        skipped = 0
+        while skipped < self._replicates:
+            many = min(self._replicates - skipped, self._affordable() // count)
+            if many:
+                yield skipped, many, 0, count
+            done = count if many else 0
+            while done < count:
+                size = min(count - done, self._affordable() // BLOCK * BLOCK)
+                yield skipped, 1, done, size
+                done += size
+            skipped += max(1, many)
+
+    def _affordable(self) -> int:
+        """Samples of a call that is not too long; one block as long as nothing is known."""
+        pace = getattr(self._kernel, "pace", LONGEST)
+        return max(BLOCK, int(LONGEST / pace))
 
 
 def _push(stack: list[tuple[int, Moments]], moments: Moments) -> None:
