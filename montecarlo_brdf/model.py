@@ -139,7 +139,7 @@ def build(name: str, namespace: Mapping[str, Any], picks: Mapping[str, str], bui
     _check_arguments(name, bound)
     _check_domain(name, domain)
     optional = ("sample", "pdf", "prepare", "albedo", "same_as", "scales_with", "lobe")
-    given = {k: bound.get(k) for k in optional}
+    given: dict[str, Any] = {k: bound.get(k) for k in optional}
     return Model(
         name=name,
         doc=str(namespace.get("__doc__") or ""),

@@ -70,9 +70,8 @@ def _overload(function: Callable[..., Any]) -> Any:
     import numba
 
     pointers = (numba.types.CPointer(numba.int64),) + (numba.types.CPointer(numba.float64),) * 2
-    dispatcher = numba.njit(
-        numba.void(*pointers), no_cpython_wrapper=True, no_cfunc_wrapper=True, **jit.options()
-    )(function)
+    options = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, **jit.options()}
+    dispatcher = numba.njit(numba.void(*pointers), **options)(function)
     (overload,) = dispatcher.overloads.values()
     return overload
 

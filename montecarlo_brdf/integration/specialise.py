@@ -56,7 +56,7 @@ def globals_used(code: types.CodeType) -> tuple[str, ...]:
     return tuple(sorted(found.union(*map(globals_used, nested))))
 
 
-def references(function: types.FunctionType, bound: Mapping[str, Any]) -> dict[str, Any]:
+def references(function: Function, bound: Mapping[str, Any]) -> dict[str, Any]:
     """The global names that `function` uses and what each stands for, `bound` first."""
     found = {}
     for name in globals_used(function.__code__):
@@ -125,7 +125,8 @@ class Fingerprint:
         """Names, fields and values of named tuples and enumerations, which kernels may use."""
         self._text(f"class {kind.__module__}.{kind.__qualname__}")
         if isinstance(kind, enum.EnumMeta):
-            self.add([(n, m.value) for n, m in kind.__members__.items()])
+            members: Mapping[str, Any] = kind.__members__
+            self.add([(name, member.value) for name, member in members.items()])
         elif hasattr(kind, "_fields"):
             self.add((kind._fields, getattr(kind, "_field_defaults", {})))
         elif kind.__module__ != "builtins" and not kind.__module__.startswith(PLAIN_MODULES):
@@ -172,20 +173,20 @@ class Fingerprint:
 class Specialiser:
     """Compiles a function and everything it reaches, each once."""
 
-    def __init__(self, compile: Callable[[types.FunctionType], Any], twins: Mapping[Any, Any]):
+    def __init__(self, compile: Callable[[Function], Any], twins: Mapping[Any, Any]):
         self._compile = compile
         self._done: dict[int, Any] = {}
         self._modules: dict[tuple[int, int], types.ModuleType] = {}
         self._twins = {id(f): twin for f, twin in twins.items()}
         self._alive: list[Any] = list(twins)
 
-    def bind(self, function: types.FunctionType, bound: Mapping[str, Any]) -> Any:
+    def bind(self, function: Function, bound: Mapping[str, Any]) -> Any:
         """`function` compiled with the names in `bound` standing for the functions given."""
         compiled = self._compile(self.clone(function, bound))
         self._twins[id(compiled)] = compiled
         return compiled
 
-    def clone(self, function: types.FunctionType, bound: Mapping[str, Any]) -> types.FunctionType:
+    def clone(self, function: Function, bound: Mapping[str, Any]) -> types.FunctionType:
         """`function` with every global name it uses replaced by its compiled counterpart."""
         scope: dict[str, Any] = {"__builtins__": __builtins__, "__name__": function.__module__}
         for name, value in references(function, bound).items():
