@@ -1,0 +1,193 @@
+"""What goes wrong around the program: each drill ends in a clear sentence or in the right result."""
+from __future__ import annotations
+
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+COMMAND = [sys.executable, "-m", "montecarlo_brdf"]
+QUICK = ["furnace", "--model", "lambert", "--theta-o", "0,60", "--samples", "2^10", "--format", "json"]
+
+
+def start(*arguments: Any, cache: Path | None, **options: Any) -> subprocess.Popen[str]:
+    environment = {**os.environ, **options.pop("env", {})}
+    environment.pop("BRDF_CHECK_CACHE_DIR", None)
+    if cache:
+        environment["BRDF_CHECK_CACHE_DIR"] = str(cache)
+    for name in [k for k, v in environment.items() if v is None]:
+        del environment[name]
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
+    return subprocess.Popen([*COMMAND, *map(str, arguments)], env=environment, text=True, **streams)
+
+
+def run(*arguments: Any, cache: Path | None, **options: Any) -> tuple[int, str, str]:
+    """Exit code, stdout, stderr; a traceback is never an answer."""
+    process = start(*arguments, cache=cache, **options)
+    out, err = process.communicate(timeout=120)
+    assert "Traceback" not in (err or "")
+    return process.returncode, out, err
+
+
+def results(out: str) -> Any:
+    return json.loads(out)["results"]
+
+
+@pytest.fixture(scope="module")
+def warm(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A cache that holds the kernels of QUICK."""
+    folder = tmp_path_factory.mktemp("warm")
+    assert run(*QUICK, cache=folder)[0] == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def truth(warm: Path) -> Any:
+    return results(run(*QUICK, cache=warm)[1])
+
+
+def limited(size: int) -> Callable[[], None]:
+    """No file may grow beyond `size` bytes: what a full disk looks like to a program."""
+
+    def limit() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+    return limit
+
+
+def test_disk_full_while_a_report_is_written(warm: Path, tmp_path: Path) -> None:
+    target = tmp_path / "report.json"
+    target.write_text("older report")
+    code, _, err = run(*QUICK, "--export-json", target, cache=warm, preexec_fn=limited(256))
+    assert code == 5 and "cannot write" in err
+    assert [p.name for p in tmp_path.iterdir()] == ["report.json"]
+    assert target.read_text() == "older report"
+
+
+def test_disk_full_while_a_kernel_is_stored(tmp_path: Path, truth: Any) -> None:
+    code, out, _ = run(*QUICK, cache=tmp_path, preexec_fn=limited(256), stdout=subprocess.PIPE)
+    assert code == 0 and results(out) == truth
+    assert not list(tmp_path.iterdir())
+
+
+def test_stdout_full(warm: Path) -> None:
+    with open("/dev/full", "w") as full:
+        code, _, err = run(*QUICK, cache=warm, stdout=full)
+    assert code == 5 and "cannot write to stdout" in err
+
+
+@pytest.mark.parametrize("place", ["/proc/1/no_such_folder", "a file"])
+def test_cache_that_cannot_be_written(place: str, tmp_path: Path, truth: Any) -> None:
+    (tmp_path / "a file").write_text("")
+    cache = tmp_path / place / "cache"  # an absolute place stays what it is
+    code, out, _ = run(*QUICK, cache=cache)
+    assert code == 0 and results(out) == truth
+
+
+def test_two_processes_compile_at_once(tmp_path: Path, truth: Any) -> None:
+    both = [start(*QUICK, cache=tmp_path) for _ in range(2)]
+    for process in both:
+        out, err = process.communicate(timeout=120)
+        assert process.returncode == 0 and results(out) == truth, err
+    assert not list(tmp_path.glob("*.part"))
+    assert results(run(*QUICK, cache=tmp_path)[1]) == truth
+
+
+@pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "other"])
+def test_damaged_kernels_are_not_used(damage: str, warm: Path, tmp_path: Path, truth: Any) -> None:
+    cache = tmp_path / "cache"
+    shutil.copytree(warm, cache)
+    for path in cache.glob("*.o"):
+        content = path.read_bytes()
+        middle = len(content) // 2
+        path.write_bytes(
+            {
+                "cut": content[:middle],
+                "flipped": content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :],
+                "empty": b"",
+                "other": b"\0" * len(content),
+            }[damage]
+        )
+    code, out, _ = run(*QUICK, cache=cache)
+    assert code == 0 and results(out) == truth
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from montecarlo_brdf.report import write
+os.replace = lambda *a: os.kill(os.getpid(), signal.SIGKILL)
+write.write_text(Path(sys.argv[1]), "new" * 10_000)
+"""
+
+
+def test_killed_in_the_middle_of_a_write(tmp_path: Path, warm: Path) -> None:
+    target = tmp_path / "report.json"
+    target.write_text("older report")
+    done = subprocess.run([sys.executable, "-c", KILLED, str(target)], timeout=60)
+    assert done.returncode == -signal.SIGKILL
+    assert target.read_text() == "older report"
+    assert run(*QUICK, "--export-json", target, cache=warm)[0] == 0
+    assert json.loads(target.read_text())["results"]
+
+
+def test_killed_while_compiling(tmp_path: Path, truth: Any) -> None:
+    process = start(*QUICK, cache=tmp_path)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.communicate(timeout=0.4)
+    process.kill()
+    process.communicate()
+    (tmp_path / "half.part").write_bytes(b"half a kernel")
+    assert results(run(*QUICK, cache=tmp_path)[1]) == truth
+
+
+@pytest.mark.parametrize("home", [None, "/proc/1/no_such_home", ""])
+def test_no_home(home: str | None, tmp_path: Path, truth: Any) -> None:
+    # XDG_CACHE_HOME stands for what the user database would say, which tests must not write to
+    code, out, _ = run(*QUICK, cache=None, env={"HOME": home, "XDG_CACHE_HOME": str(tmp_path)})
+    assert code == 0 and results(out) == truth
+
+
+def test_full_home(tmp_path: Path, truth: Any) -> None:
+    full = {"HOME": str(tmp_path), "XDG_CACHE_HOME": None}
+    code, out, _ = run(*QUICK, cache=None, env=full, preexec_fn=limited(0))
+    assert code == 0 and results(out) == truth
+
+
+TEXTS = [QUICK[:-2], ["models"], ["show", "oren_nayar"], ["furnace", "--help"], ["show", "\u00f8re"]]
+
+
+@pytest.mark.parametrize("text", TEXTS, ids=lambda t: " ".join(t[:2]).encode("ascii", "replace").decode())
+def test_locales_without_unicode(text: list[str], warm: Path) -> None:
+    plain = {"LC_ALL": "C", "LANG": "C", "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    code, out, err = run(*text, cache=warm, env=plain)
+    assert code in (0, 2), err
+
+
+@pytest.mark.parametrize("text", TEXTS[:4], ids=lambda t: " ".join(t[:2]))
+def test_terminal_of_one_column(text: list[str], warm: Path) -> None:
+    assert run(*text, cache=warm, env={"COLUMNS": "1", "TERM": "dumb"})[0] == 0
+
+
+def test_no_terminal_at_all(warm: Path, truth: Any) -> None:
+    code, out, _ = run(*QUICK, cache=warm, env={"TERM": None}, stdin=subprocess.DEVNULL,
+                       start_new_session=True)  # fmt: skip
+    assert code == 0 and results(out) == truth
+
+
+@pytest.mark.parametrize("text", TEXTS[:4], ids=lambda t: " ".join(t[:2]))
+def test_closed_pipe(text: list[str], warm: Path) -> None:
+    process = start(*text, cache=warm)
+    assert process.stdout and process.stderr
+    process.stdout.close()
+    err = process.stderr.read()
+    assert process.wait(timeout=60) in (0, 5) and "Traceback" not in err and "Exception" not in err

@@ -1,0 +1,44 @@
+"""Short fuzzing of everything that reads: the command line, model files, reports.
+
+The long runs are scripts/fuzz.py, which draws from the same strategies.
+"""
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import fuzzing
+import pytest
+from hypothesis import HealthCheck, given, settings
+
+from montecarlo_brdf.cli import run
+
+QUIET = settings(
+    deadline=None,
+    max_examples=60,
+    derandomize=True,  # the same examples for everyone; scripts/fuzz.py explores
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
+
+
+@QUIET
+@given(fuzzing.command_lines())
+def test_command_lines(tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]) -> None:
+    assert run(fuzzing.in_folder(arguments, tmp_path)) in fuzzing.ANSWERS
+
+
+@QUIET
+@given(fuzzing.model_files())
+def test_model_files(tmp_path: Path, capsys: pytest.CaptureFixture[str], content: bytes) -> None:
+    path = tmp_path / "fuzzed.py"
+    path.write_bytes(content)
+    assert run(["show", str(path)]) in fuzzing.ANSWERS
+
+
+@settings(QUIET, max_examples=25)
+@given(fuzzing.reports())
+def test_reports(tmp_path: Path, capsys: pytest.CaptureFixture[str], report: Any) -> None:
+    path = tmp_path / "report.json"
+    path.write_text(report if isinstance(report, str) else json.dumps(report))
+    assert run(["plot", str(path), "-o", str(tmp_path / "out.svg")]) in fuzzing.ANSWERS
