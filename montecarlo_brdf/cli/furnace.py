@@ -41,8 +41,9 @@ Examples:
               help="Sample until the 99 % interval of A is as narrow, relative to A. "
               "[--target-error 1e-6]")  # fmt: skip
 @click.option("--method", default=None, metavar="NAME",
-              help="auto chooses chart or sampler and points for the model and tells why; given keeps "
-              "--sampler and --points. [--method auto]  [default: auto with --target-error]")  # fmt: skip
+              help="auto chooses chart or sampler and points for the model and tells why; given "
+              "keeps --sampler and --points. [--method auto]  "
+              "[default: auto with --target-error]")  # fmt: skip
 @_options.sampling_options
 @_options.output_options
 @click.option(

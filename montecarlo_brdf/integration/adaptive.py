@@ -75,7 +75,8 @@ def check_target(target: Any) -> float:
     low, high = TARGETS
     number = float(target) if isinstance(target, (int, float)) else math.nan
     if isinstance(target, bool) or not low <= number < high:
-        raise UserError(f"target_error must be a relative error in [{low:g}, {high:g}), not {target}")
+        allowed = f"a relative error in [{low:g}, {high:g})"
+        raise UserError(f"target_error must be {allowed}, not {target}")
     return number
 
 
@@ -169,7 +170,7 @@ def shape_of(points: str, size: int) -> Shape:
 
 
 @functools.lru_cache(maxsize=4096)
-def prepare(model: Model, p: Any, kind: type, method: Method) -> Setting:
+def prepare(model: Model, p: Any, kind: Any, method: Method) -> Setting:
     """Kernels and numbers of a case. `kind` keeps equal tuples of different variants apart."""
     name = integrand_name(model, "albedo", method.sampler)
     layout, numbers = parameters.pack([model.prepared(c) for c in channels(p)], kernel.QUERY)
@@ -195,6 +196,7 @@ def _climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Climb:
     """More and more samples until every channel is good enough, or the method turns out unfit."""
     points, width = setting.method.points, setting.channels
     reals = (*wo, setting.width, *setting.numbers)
+    target = plan.target_error or 0.0
     key = stream(plan.seed, points, *setting.identity, *wo)
     ladder = work.Ladder(setting.entry, reals, width, key, plan.replicates)
     highest = _highest(setting, reals)
@@ -204,18 +206,18 @@ def _climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Climb:
         shape = shape_of(points, size)
         if size * plan.replicates > work.CHUNK:
             job = work.Job(setting.entry, reals, width, key, plan.replicates, size, shape)
-            states = [x for row in zip(*work.run(job, plan.threads)) for m in row for x in m]
+            states = [x for row in zip(*work.run(job, plan.threads), strict=True) for m in row for x in m]
         else:
             states = ladder.states(size, shape)
         means = [states[STATE * k + 1 :: STATE * width] for k in range(width)]
         worst, need = _worst(means, highest, len(errors) - 2)
-        reached = worst <= plan.target_error and need <= size
+        reached = worst <= target and need <= size
         errors.append(worst)
         complaint = "" if reached else _complaint(errors, need, size >= most)
         if reached or size >= most or (complaint and not final):
             return Climb(_moments(states, width), reached, complaint)
         # an error falls by less than 32 when N doubles (slope -5): do not look where it cannot be
-        size = min(most, size * (4 if worst > 32.0 * plan.target_error else 2))
+        size = min(most, size * (4 if worst > 32.0 * target else 2))
 
 
 def _moments(states: list[float], width: int) -> list[list[Moments]]:
@@ -224,13 +226,15 @@ def _moments(states: list[float], width: int) -> list[list[Moments]]:
     return [every[k::width] for k in range(width)]
 
 
-def _worst(means: Sequence[Sequence[float]], highest: Sequence[float], look: int) -> tuple[float, float]:
+def _worst(
+    means: Sequence[Sequence[float]], highest: Sequence[float], look: int
+) -> tuple[float, float]:
     """(largest relative half-width, samples that the probed values demand) over the channels."""
     count = len(means[0])
     t = student.quantile(0.5 * LEVEL * 0.5**look, count - 1) / math.sqrt(count * (count - 1))
     floor = FLOOR * math.sqrt(count * (count - 1))
     worst, need = 0.0, 0.0
-    for row, high in zip(means, highest):
+    for row, high in zip(means, highest, strict=True):
         mean = sum(row) / count
         size = abs(mean)
         half = t * max(math.sqrt(sum([(m - mean) * (m - mean) for m in row])), floor * size)

@@ -146,7 +146,7 @@ def seen_cosine(u: Any, fixed: Any, p: Any) -> float:
 
 
 def seen_panels(u: Any, fixed: Any, p: Any) -> float:
-    """The largest value at a probed direction of `albedo_panels`, with both steps at their steepest."""
+    """The largest value of `albedo_panels` at a probed direction, both steps at their steepest."""
     wo = (fixed[0], fixed[1], fixed[2])
     wi = probed(wo, u[0])
     return 1.875 * 1.875 * math.pi * F(wo, wi, p) if wi[2] > 0.0 else 0.0

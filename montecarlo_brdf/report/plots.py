@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.report.convergence_plots import convergence_figure
 from montecarlo_brdf.report.write import write_bytes
 
 KINDS = ("png", "svg", "pdf")
@@ -131,4 +132,4 @@ def stress_figure(report: dict[str, Any]) -> Any:
 
 
 #: What is drawn of the report of each command.
-FIGURES = {"furnace": albedo_figure, "stress": stress_figure}
+FIGURES = {"converge": convergence_figure, "furnace": albedo_figure, "stress": stress_figure}
