@@ -11,7 +11,7 @@ from montecarlo_brdf import loading, verify
 from montecarlo_brdf.cli._values import number, numbers, parameter_sets
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Report
-from montecarlo_brdf.report.sentences import shown
+from montecarlo_brdf.report.sentences import called
 from montecarlo_brdf.verify.common import shown_parameters
 
 
@@ -34,8 +34,7 @@ class Job(NamedTuple):
         """'lambert(albedo=0.2)'; of what is searched only the name."""
         if self.p is None:
             return self.model.name
-        values = shown_parameters(self.model, self.p[0]).items()
-        return f"{self.model.name}({', '.join(f'{k}={shown(v)}' for k, v in values)})"
+        return called(self.model.name, shown_parameters(self.model.of(self.p[0]), self.p[0]))
 
     def single(self) -> list[Job]:
         """One job per parameter set."""

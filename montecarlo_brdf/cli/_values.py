@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import click
@@ -106,16 +106,23 @@ class Number(click.ParamType):
 
 def parameter_sets(model: Model, assignments: Sequence[str]) -> list[Any]:
     """All combinations of -p name=value: lists and ranges make cases, a/b/c makes a colour."""
-    axes = [_axis(model, a) for a in assignments]
-    count = math.prod(len(values) for _, values in axes)
+    listed = axes(assignments, lambda name: model)
+    rows: Iterable[tuple[Any, ...]] = itertools.product(*listed.values())
+    return [model.parameters(**dict(zip(listed, row, strict=True))) for row in rows]
+
+
+def axes(assignments: Sequence[str], owner: Callable[[str], Model]) -> dict[str, list[Any]]:
+    """The values of every name assigned; `owner` says which model a name belongs to."""
+    found: dict[str, list[Any]] = {}
+    for assignment in assignments:
+        name, values = _axis(owner(assignment.partition("=")[0].strip()), assignment)
+        if name in found:
+            raise UserError(f"-p {name} is given twice: write -p {name}=a,b for both values")
+        found[name] = values
+    count = math.prod(map(len, found.values()))
     if count > MOST_VALUES:
         raise UserError(f"{count} parameter sets are more than the {MOST_VALUES} allowed")
-    names = [name for name, _ in axes]
-    for name in names:
-        if names.count(name) > 1:
-            raise UserError(f"-p {name} is given twice: write -p {name}=a,b for both values")
-    rows: Iterable[tuple[Any, ...]] = itertools.product(*(values for _, values in axes))
-    return [model.parameters(**dict(zip(names, row, strict=True))) for row in rows]
+    return found
 
 
 def _axis(model: Model, assignment: str) -> tuple[str, list[Any]]:

@@ -123,9 +123,9 @@ class Ladder:
         """STATE numbers per replicate and result, of samples [start, start + count)."""
         out = self._out()
         at = ctypes.addressof(out)
-        self._ints[5:] = shape
+        self._ints[5:] = list(shape)
         for skipped, many, done, size in self._pieces(count):
-            self._ints[1:5] = (self._first + skipped, many, start + done, size)
+            self._ints[1:5] = [self._first + skipped, many, start + done, size]
             began = time.perf_counter()
             if self._kernel(*self._at, at + skipped * self._stride) != 0:
                 raise ModelError("the model raised an exception while it was sampled")

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -23,8 +23,13 @@ BAD = ("error", "fail", "inconclusive")
 
 def case(result: Result) -> str:
     """'lambert(albedo=0.8)'; empty if the result is of no model."""
-    values = ", ".join(f"{k}={shown(v)}" for k, v in result.params.items())
-    return f"{result.model}({values})" if values and result.model else result.model
+    return called(result.model, result.params) if result.model else ""
+
+
+def called(model: str, params: Mapping[str, Any]) -> str:
+    """A model with its parameters."""
+    values = ", ".join(f"{k}={shown(v)}" for k, v in params.items())
+    return f"{model}({values})" if values else model
 
 
 def shown(value: Any) -> str:

@@ -151,9 +151,10 @@ def summary(report: Report) -> Text:
     counts = tally(findings)
     samples = max((f.samples or 0 for f in findings), default=0)
     verdict = worst(f.verdict for f in findings) if findings else "skipped"
+    points = f"{kind} points, " if (kind := report.settings.get("points")) else ""
     text = Text(f"{report.verdict.upper()}", style=COLOURS.get(verdict, ""))
     text.append(
-        f"  {counts}; up to {samples} samples a claim, {report.settings.get('points')} points, "
+        f"  {counts}; up to {samples} samples a claim, {points}"
         f"seed {report.settings.get('seed')}; chance of a false alarm <= {report.level:.1g}",
         style="not bold default",
     )

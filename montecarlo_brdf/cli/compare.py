@@ -1,0 +1,95 @@
+"""brdf-check compare"""
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from typing import Any
+
+import click
+
+from montecarlo_brdf.cli import _options
+from montecarlo_brdf.cli._values import Number
+
+EPILOG = """\b
+Examples:
+  brdf-check compare my_ggx.py ggx -p alpha=0.1,0.5
+  brdf-check compare ggx beckmann --theta-o 0:85:6 --tolerance 0.01
+  brdf-check compare phong lafortune_willems --format markdown
+"""
+
+
+@click.command("compare", epilog=EPILOG, short_help="Two models' values, A and R side by side.")
+@click.argument("model", metavar="A", shell_complete=_options.model_names)
+@click.argument("other", metavar="B", shell_complete=_options.model_names)
+@click.option("-p", "--param", "assignments", multiple=True, metavar="NAME=VALUE",
+              help="A parameter or choice of A, of B, or of both if both have it. [-p alpha=0.1]")
+@click.option("--theta-o", default="0,15,30,45,60,75,85", show_default=True, metavar="DEGREES",
+              help="Angles in [0, 90) of the direction that is given. [--theta-o 0:85:18]")
+@click.option("--phi-o", default="0", metavar="DEGREES", help="Its azimuth. [--phi-o 45]")
+@click.option("--tolerance", type=Number("in [0, 1)"), default=None,
+              help="Allowed relative deviation [default: 1e-6 of f, 1e-4 of A and R]. "
+              "[--tolerance 0.01]")
+@click.option("--seed", default="0", show_default=True, metavar="NUMBER",
+              help="Of the random directions: a number, or random (printed). [--seed 7]")
+@_options.output_options
+def command(**options: Any) -> int:
+    """Do two models agree? The columns estimate and expected are A's and B's.
+
+    f is compared over thousands of pairs of directions, the albedo A(wo) and the reverse albedo
+    R(wi) by quadrature with error bounds. Parameters without -p have their defaults.
+    """
+    from montecarlo_brdf import loading
+    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._values import number, numbers
+    from montecarlo_brdf.verify.compare import compare
+
+    _options.check_outputs(options["form"], options["export_json"])
+    model, other = loading.load(options["model"]), loading.load(options["other"])
+    with progress(f"compare {model.name} {other.name}") as update:
+        report = compare(
+            model,
+            other,
+            pairs(model, other, options["assignments"]),
+            numbers(options["theta_o"], "theta-o"),
+            phi_o_deg=number(options["phi_o"], "phi-o"),
+            tolerance=options["tolerance"],
+            seed=_options.seed_of(options["seed"]),
+            progress=update,
+        )
+    return _options.deliver(
+        report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
+    )
+
+
+def pairs(model: Any, other: Any, assignments: Sequence[str]) -> list[tuple[Any, Any]]:
+    """Parameter sets of both for every combination; a value goes to whichever model knows it."""
+    from montecarlo_brdf.cli._values import axes
+
+    names = {m: set(known(m)) for m in (model, other)}
+    owner = lambda name: other if name in names[other] - names[model] else model  # noqa: E731
+    listed = axes(assignments, owner)
+    found = []
+    for row in itertools.product(*listed.values()):
+        values = dict(zip(listed, row, strict=True))
+        unknown = {n: v for n, v in values.items() if n not in names[model] | names[other]}
+        own = {n: v for n, v in values.items() if n in names[model]}
+        found.append(
+            (
+                model.parameters(**own, **unknown),
+                other.parameters(**{n: v for n, v in values.items() if n in names[other]}),
+            )
+        )
+    return found
+
+
+def known(model: Any) -> list[str]:
+    """Names of a model's parameters and choices, also those that its other choices would bring."""
+    names = [model.labels.get(n, n) for n in model.Params._fields]
+    brought = [
+        field
+        for options in model.choices.values()
+        for option in options.values()
+        if isinstance(option, dict)
+        for field in option.get("params", {})
+    ]
+    return [*names, *model.choices, *brought]
