@@ -1,4 +1,5 @@
 """What `stress` does once its options are known."""
+
 from __future__ import annotations
 
 import math
@@ -20,15 +21,21 @@ def run_stress(options: dict[str, Any]) -> int:
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])
     models = models_of(options)
-    given = [parameter_sets(m, options["assignments"]) for m in models] if options["assignments"] else None
+    given = (
+        [parameter_sets(m, options["assignments"]) for m in models]
+        if options["assignments"]
+        else None
+    )
     sets = given[0] if given else None
     if given:
-        models = [m.of(many[0]) for m, many in zip(models, given)]
+        models = [m.of(many[0]) for m, many in zip(models, given, strict=False)]
     if options["at"]:
         return show_point(models[0], sets, options["at"])
     names = options["precisions"].split(",") if options["precisions"] else None
     with progress(f"stress {', '.join(m.name for m in models)}") as update:
-        report, found = stressed(models, sets, names, options["max_error"], options["quick"], update)
+        report, found = stressed(
+            models, sets, names, options["max_error"], options["quick"], update
+        )
     if options["plot"]:
         from montecarlo_brdf.report.plots import plot
 
@@ -70,7 +77,9 @@ def show_point(model: Model, sets: Any, text: str) -> int:
     p = sets[0] if sets else model.parameters()
     for one in ladder().values():
         q = rounded(p, one)
-        value = math.nan if q is None else float(Rung(model, one).f(one.array(wo), one.array(wi), q)[0])
+        value = (
+            math.nan if q is None else float(Rung(model, one).f(one.array(wo), one.array(wi), q)[0])
+        )
         click.echo(f"{one.name:10} {value!r}")
     e = exact()
     truth = Rung(model, e).f(unit(wo, e), unit(wi, e), rounded(p, e))[0]

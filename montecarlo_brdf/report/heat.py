@@ -1,4 +1,5 @@
 """Heat maps of a stress report: where in angle and roughness the digits go."""
+
 from __future__ import annotations
 
 from typing import Any
@@ -12,17 +13,19 @@ def draw(report: dict[str, Any], figure: Any) -> None:
     columns = max(1, min(3, len(maps)))
     rows = max(1, -(-len(maps) // columns))
     axes = figure.subplots(rows, columns, squeeze=False).ravel()
-    for ax, (title, points) in zip(axes, maps):
+    for ax, (title, points) in zip(axes, maps, strict=False):
         _one(figure, ax, title, points)
     for ax in axes[len(maps) :]:
         ax.set_axis_off()
     if not maps:
-        axes[0].set_title("no parameter of this model sharpens its lobe: nothing to map", fontsize=9)
+        axes[0].set_title(
+            "no parameter of this model sharpens its lobe: nothing to map", fontsize=9
+        )
 
 
 def _maps(result: dict[str, Any]) -> list[tuple[str, list[Any]]]:
     precisions = dict.fromkeys(f["where"]["precision"] for f in result["findings"])
-    pairs = zip(precisions, result.get("curves", []))
+    pairs = zip(precisions, result.get("curves", []), strict=False)
     return [(f"{result['model']}, {name}", points) for name, points in pairs if points]
 
 

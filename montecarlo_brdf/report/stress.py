@@ -1,4 +1,5 @@
 """What the ladder of precisions found, as findings and as a table."""
+
 from __future__ import annotations
 
 import math
@@ -33,7 +34,9 @@ def _findings(model: Any, o: Outcome, promised: bool) -> list[Finding]:
     where = {"precision": o.precision}
     note = None if promised else UNASKED.format(o.precision)
 
-    def at_most(quantity: str, value: float, limit: float, reason: str | None, repro: str | None) -> Finding:
+    def at_most(
+        quantity: str, value: float, limit: float, reason: str | None, repro: str | None
+    ) -> Finding:
         held = value <= limit
         verdict = "pass" if held else ("fail" if promised else "known")
         said = None if held else "; ".join(s for s in (reason, note) if s)
@@ -51,10 +54,18 @@ def _findings(model: Any, o: Outcome, promised: bool) -> list[Finding]:
     if o.draws:
         d = o.draws
         limit = LENGTH_ROUNDINGS * max(o.eps, DOUBLE)
-        found.append(at_most("length of a sample - 1", d.length, limit, _drawn(d.where.get("length")), None))
+        found.append(
+            at_most("length of a sample - 1", d.length, limit, _drawn(d.where.get("length")), None)
+        )
         bad = d.nan + d.unreachable + d.weightless
-        place = next((d.where[k] for k in ("nan", "unreachable", "weightless") if k in d.where), None)
-        found.append(at_most("samples NaN, of pdf 0, of infinite weight", float(bad), 0.0, _drawn(place), None))
+        place = next(
+            (d.where[k] for k in ("nan", "unreachable", "weightless") if k in d.where), None
+        )
+        found.append(
+            at_most(
+                "samples NaN, of pdf 0, of infinite weight", float(bad), 0.0, _drawn(place), None
+            )
+        )
     return found
 
 
@@ -80,10 +91,12 @@ def _worst(model: Any, o: Outcome, found: Found | None) -> tuple[str | None, str
 
 def reproduction(model: Any, precision: str, found: Found) -> str:
     """The command that evaluates this one point in every precision."""
-    numbers = {**{n: repr(float(v)) for n, v in zip(found.p._fields, found.p)}, **model.picks}
-    assignments = "".join(f" -p {n}={v}" for n, v in numbers.items())
+    numbers = {n: repr(float(v)) for n, v in zip(found.p._fields, found.p, strict=True)}
+    assignments = "".join(f" -p {n}={v}" for n, v in {**numbers, **model.picks}.items())
     point = ",".join(repr(float(x)) for x in (*found.wo, *found.wi))
-    return f"brdf-check stress --model {model.name}{assignments} --precision {precision} --at {point}"
+    return (
+        f"brdf-check stress --model {model.name}{assignments} --precision {precision} --at {point}"
+    )
 
 
 def _drawn(place: dict[str, Any] | None) -> str | None:
@@ -96,7 +109,7 @@ def _drawn(place: dict[str, Any] | None) -> str | None:
 def show(report: Report, tables: list[tuple[Any, list[Outcome]]]) -> None:
     """Print one table per model, side by side numbers for every precision, then what failed."""
     console = Console(width=None if sys.stdout.isatty() else PLAIN_WIDTH, highlight=False)
-    for one, (model, outcomes) in zip(report.results, tables):
+    for one, (model, outcomes) in zip(report.results, tables, strict=False):
         picks = ", ".join(f"{k}={v}" for k, v in model.picks.items())
         console.print(Text(f"{model.name}{f'({picks})' if picks else ''}  stability", style="bold"))
         console.print(_table(outcomes, one))
@@ -113,11 +126,17 @@ def _lines(f: Finding) -> list[str]:
     return [f"{head}: {f.note}", *([f"  repro {f.reproduce}"] if f.reproduce else [])]
 
 
+COLUMNS = (
+    ("precision", "points", "worst error", "ulps", "allowed", "with rounded inputs")
+    + ("NaN", "Inf", "< 0", "flushed", "safe from", "|sample| - 1", "verdict")
+)  # fmt: skip
+
+
 def _table(outcomes: list[Outcome], one: Result) -> Table:
     grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for name in ("precision", "points", "worst error", "ulps", "allowed", "with rounded inputs",
-                 "NaN", "Inf", "< 0", "flushed", "safe from", "|sample| - 1", "verdict"):  # fmt: skip
-        grid.add_column(name, justify="left" if name == "verdict" else "right", no_wrap=name == "safe from")
+    for name in COLUMNS:
+        justify: Any = "left" if name == "verdict" else "right"
+        grid.add_column(name, justify=justify, no_wrap=name == "safe from")
     for o in outcomes:
         grid.add_row(*_row(o), _verdict(one, o.precision))
     return grid
@@ -125,11 +144,16 @@ def _table(outcomes: list[Outcome], one: Result) -> Table:
 
 def _row(o: Outcome) -> list[str]:
     total = o.worst_total.total if o.worst_total else 0.0
-    safe = "" if o.safe is None else f"{o.safe[0]} " + ("none" if math.isnan(o.safe[1]) else f"{o.safe[1]:.3g}")
+    safe = (
+        ""
+        if o.safe is None
+        else f"{o.safe[0]} " + ("none" if math.isnan(o.safe[1]) else f"{o.safe[1]:.3g}")
+    )
     kinds = [str(o.counts[k]) for k in ("nan", "inf", "negative", "flushed")]
     length = "" if o.draws is None else f"{o.draws.length / o.eps:.1f} eps"
-    return [o.precision, str(o.points), f"{_own(o):.1e}", f"{_own(o) / o.eps:.2g}", f"{o.tolerance:.0e}",
-            f"{total:.1e}", *kinds, safe, length]  # fmt: skip
+    own = _own(o)
+    errors = [f"{own:.1e}", f"{own / o.eps:.2g}", f"{o.tolerance:.0e}", f"{total:.1e}"]
+    return [o.precision, str(o.points), *errors, *kinds, safe, length]
 
 
 def _verdict(one: Result, precision: str) -> Text:

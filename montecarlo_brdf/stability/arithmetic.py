@@ -1,4 +1,5 @@
 """The number types of the ladder, from half precision to 50 digits."""
+
 from __future__ import annotations
 
 import functools
@@ -48,8 +49,9 @@ class Arithmetic:
 def _float(name: str, tolerance: float, dtype: Any = None, info: Any = None) -> Arithmetic:
     dtype = np.dtype(dtype or name)
     info = info or np.finfo(dtype)
-    limits = (info.eps, info.tiny, info.smallest_subnormal, info.max)
-    return Arithmetic(name, dtype, *map(float, limits), tolerance, {})
+    eps, tiny = float(info.eps), float(info.tiny)
+    least, most = float(info.smallest_subnormal), float(info.max)
+    return Arithmetic(name, dtype, eps, tiny, least, most, tolerance, {})
 
 
 def _bfloat16() -> Arithmetic | None:
@@ -105,8 +107,9 @@ def exact() -> Arithmetic:
     def convert(x: Any) -> Any:
         return x if isinstance(x, context.mpf) else _exactly(context, x)
 
-    limits = (eps, 0.0, 0.0, float("inf"))
-    return Arithmetic("exact", np.dtype(object), *limits, eps, exact_functions(context), convert)
+    dtype, most = np.dtype(object), float("inf")
+    functions = exact_functions(context)
+    return Arithmetic("exact", dtype, eps, 0.0, 0.0, most, eps, functions, convert)
 
 
 def _exactly(context: Any, x: Any) -> Any:

@@ -5,6 +5,7 @@ points by them and runs the function again on each part: every `if`, `max` and `
 means what it means for one number. And it is a trace of types: an operation whose result would be
 of another float type raises `Widened`, so that single precision is single from start to end.
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence

@@ -1,4 +1,5 @@
 """Worst-case search: from the worst points found, on to worse ones nearby."""
+
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -26,7 +27,12 @@ class Found(NamedTuple):
 
 def at(points: Any, p: Any, found: Errors, i: int) -> Found:
     """Point i of an evaluation."""
-    numbers = (float(found.value[i]), float(found.truth[i]), float(found.total[i]), float(found.own[i]))
+    numbers = (
+        float(found.value[i]),
+        float(found.truth[i]),
+        float(found.total[i]),
+        float(found.own[i]),
+    )
     return Found(points.wo[i], points.wi[i], p, *numbers)
 
 
@@ -55,5 +61,3 @@ def _neighbours(w: Any, arithmetic: Any, rng: Any) -> Any:
     near[:, 2] = np.abs(near[:, 2])
     near = arithmetic.array(near / np.linalg.norm(near, axis=1)[:, None])
     return near[near[:, 2] > 0]
-
-

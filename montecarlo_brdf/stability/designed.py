@@ -3,6 +3,7 @@
 Directions are made in double and rounded component by component to the precision under test, as
 data is; what must be exact there (the mirror of wo, one step beside it) is made in it.
 """
+
 from __future__ import annotations
 
 import functools
@@ -50,7 +51,9 @@ def directions(arithmetic: Arithmetic, width: float, quick: bool = False) -> Poi
     wos = arithmetic.array(wos)
     rows = [_partners(arithmetic, wo, grid, width) for wo in wos]
     sizes = [len(r) for r in rows]
-    return Points(np.repeat(wos, sizes, axis=0), np.concatenate(rows), np.repeat(np.arange(len(wos)), sizes))
+    return Points(
+        np.repeat(wos, sizes, axis=0), np.concatenate(rows), np.repeat(np.arange(len(wos)), sizes)
+    )
 
 
 def _at(s: float, c: float, phi: float) -> tuple[float, float, float]:
@@ -62,7 +65,9 @@ def _partners(arithmetic: Arithmetic, wo: Any, grid: Any, width: float) -> Any:
     double = wo.astype(np.float64)
     phi = math.atan2(double[1], double[0])
     rounded = [*_around(grid, phi, arithmetic.eps), *_reflections(double, width)]
-    made = np.concatenate([arithmetic.array(np.array(rounded)), np.array(list(_exact(arithmetic, wo)))])
+    made = np.concatenate(
+        [arithmetic.array(np.array(rounded)), np.array(list(_exact(arithmetic, wo)))]
+    )
     return made[made[:, 2] > 0]
 
 
@@ -108,8 +113,8 @@ def width_of(model: Model, p: Any) -> float:
 
 def sharpness(model: Model) -> str | None:
     """The parameter that makes the lobe narrow, if the model has one: what a roughness is."""
-    defaults = model.parameters() if model.Params._fields else None  # type: ignore[attr-defined]
-    for name in model.domain if model.lobe and defaults else ():
+    for name in model.domain if model.lobe else ():
+        defaults = model.parameters()
         ends = [defaults._replace(**{name: end}) for end in model.domain[name]]
         widths = [width_of(model, end) for end in ends]
         if max(widths) > 2.0 * min(widths):
@@ -135,9 +140,11 @@ def parameters(model: Model, quick: bool = False) -> list[Any]:
     found = [base, *(p for p in model.verified if type(p) is type(base))]
     for name, (low, high) in model.domain.items():
         values = steps(low, high, 3 if quick else 9)
-        found += [base._replace(**{name: v}) for v in values[:: 2 if quick and len(values) > 5 else 1]]
-    corners = itertools.product(*(model.domain[n] for n in model.domain))
-    found += [base._replace(**dict(zip(model.domain, c))) for c in itertools.islice(corners, 16)]
+        found += [
+            base._replace(**{name: v}) for v in values[:: 2 if quick and len(values) > 5 else 1]
+        ]
+    corners = itertools.islice(itertools.product(*model.domain.values()), 16)
+    found += [base._replace(**dict(zip(model.domain, c, strict=True))) for c in corners]
     return list(dict.fromkeys(found))
 
 

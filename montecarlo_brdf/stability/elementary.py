@@ -4,6 +4,7 @@ The polynomials of `special` and their bit tricks are made for doubles. In doubl
 are, on words of 64 bits; in any other type the type's own exp, log, sin, cos stand for them, as
 they would on a processor of that precision.
 """
+
 from __future__ import annotations
 
 import math
@@ -126,9 +127,23 @@ def exact_functions(context: Any) -> dict[str, Callable[..., Any]]:
         "copysign": lambda a, b: abs(a) if b >= 0 else -abs(a),
         "remainder": lambda a, b: a - b * context.floor(a / b),
     }  # fmt: skip
-    same = "exp expm1 sin cos tan sinh cosh tanh hypot erf erfc radians degrees".split()
+    same = [
+        "exp",
+        "expm1",
+        "sin",
+        "cos",
+        "tan",
+        "sinh",
+        "cosh",
+        "tanh",
+        "hypot",
+        "erf",
+        "erfc",
+        "radians",
+        "degrees",
+    ]
     own |= {name: getattr(context, name) for name in same}
-    conditions = {
+    conditions: dict[str, Callable[..., Any]] = {
         "isfinite": lambda x: bool(context.isfinite(x)),
         "isnan": lambda x: bool(context.isnan(x)),
         "isinf": lambda x: bool(context.isinf(x)),
@@ -137,12 +152,12 @@ def exact_functions(context: Any) -> dict[str, Callable[..., Any]]:
         "equal": lambda a, b: a == b, "not_equal": lambda a, b: a != b,
     }  # fmt: skip
     return {
-        **{name: _on_arrays(real(f), f, object) for name, f in own.items()},
-        **{name: _on_arrays(f, f, bool) for name, f in conditions.items()},
+        **{name: _on_arrays(real(f), object) for name, f in own.items()},
+        **{name: _on_arrays(f, bool) for name, f in conditions.items()},
     }
 
 
-def _on_arrays(function: Callable[..., Any], original: Any, dtype: Any) -> Callable[..., Any]:
+def _on_arrays(function: Callable[..., Any], dtype: Any) -> Callable[..., Any]:
     def applied(*operands: Any) -> Any:
         ufunc = np.frompyfunc(function, len(operands), 1)
         return np.asarray(ufunc(*operands), dtype=dtype)

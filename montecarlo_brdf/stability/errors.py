@@ -1,4 +1,5 @@
 """How wrong a value is, and how much of that its inputs explain."""
+
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -41,7 +42,12 @@ def lower_than_any_angle(points: Any, type_: Arithmetic) -> Any:
 
 
 def judged(
-    value: Any, truth: Any, conditioning: Any, points: Any, type_: Arithmetic, truth_type: Arithmetic
+    value: Any,
+    truth: Any,
+    conditioning: Any,
+    points: Any,
+    type_: Arithmetic,
+    truth_type: Arithmetic,
 ) -> Errors:
     """The relative errors of values against their truth."""
     shown, size, low = truth_type.array(value), np.abs(truth), lower_than_any_angle(points, type_)
@@ -59,7 +65,9 @@ def judged(
     counted = real & (size <= type_.most) & (size > 0)
     size = np.where(counted, size, truth_type.array(1.0))
     total = np.where(counted & (off > 0), _double(off / size), 0.0)
-    own = np.where(counted & (off > 2 * conditioning), _double((off - 2 * conditioning) / size), 0.0)
+    own = np.where(
+        counted & (off > 2 * conditioning), _double((off - 2 * conditioning) / size), 0.0
+    )
     own = np.where(_double(conditioning / size) >= 0.25, 0.0, own)  # no digit is determined
     return Errors(
         value, truth, np.where(broken, np.inf, total), np.where(broken, np.inf, own), kinds, low

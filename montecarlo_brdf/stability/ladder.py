@@ -1,4 +1,5 @@
 """A model's own functions in any precision."""
+
 from __future__ import annotations
 
 import math
@@ -60,7 +61,9 @@ class Rung:
         try:
             return over_points(columns, call, self.arithmetic)
         except Widened as error:
-            raise ModelError(f"{name} of model {self.model.name} leaves its precision: {error}") from error
+            raise ModelError(
+                f"{name} of model {self.model.name} leaves its precision: {error}"
+            ) from error
         except (TypeError, ValueError, AttributeError, IndexError, AssertionError) as error:
             text = " ".join(str(error).split())
             raise ModelError(

@@ -1,7 +1,9 @@
 """A model's sampler at random numbers that a generator may give and a test never draws."""
+
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +17,8 @@ LENGTH_ROUNDINGS = 32.0
 ANGLES = 8
 
 
-class Draws(NamedTuple):
+@dataclass(frozen=True)
+class Draws:
     """What went wrong among `count` draws of one precision: how often, and where first."""
 
     count: int
@@ -34,7 +37,9 @@ def draws(model: Model, sets: list[Any], arithmetic: Arithmetic) -> Draws | None
     rung = Rung(model, arithmetic)
     u = designed.uniforms(arithmetic)
     polar = designed.polar(arithmetic, quick=True)
-    wos = arithmetic.array(np.array([(s * 0.8, -s * 0.6, c) for s, c in polar if c >= arithmetic.eps]))
+    wos = arithmetic.array(
+        np.array([(s * 0.8, -s * 0.6, c) for s, c in polar if c >= arithmetic.eps])
+    )
     wos = wos[:: max(1, len(wos) // ANGLES)]
     wo, many = np.repeat(wos, len(u), axis=0), np.tile(u, (len(wos), 1))
     total = Draws(0, 0, 0.0, 0, 0, 0.0, {})
@@ -85,7 +90,7 @@ def _weights(rung: Rung, wo: Any, w: Any, p: Any) -> tuple[Any, Any]:
 
 def _place(wo: Any, u: Any, p: Any, i: int) -> dict[str, Any]:
     vectors = {"wo": [float(x) for x in wo[i]], "u": [float(x) for x in u[i]]}
-    return {**vectors, "p": {n: float(v) for n, v in zip(p._fields, p)}}
+    return {**vectors, "p": {n: float(v) for n, v in zip(p._fields, p, strict=False)}}
 
 
 def _together(a: Draws, b: Draws) -> Draws:

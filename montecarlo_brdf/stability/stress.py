@@ -1,4 +1,5 @@
 """One model through the ladder: the worst error per precision, what broke, what is still safe."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -38,7 +39,9 @@ class Outcome:
     first: dict[str, climb.Found] = field(default_factory=dict)
     safe: tuple[str, float] | None = None  # parameter, value from which on errors are tolerable
     sharpness: list[tuple[float, float]] = field(default_factory=list)  # (value, worst own error)
-    heat: list[tuple[float, float, float]] = field(default_factory=list)  # (theta_deg, value, error)
+    heat: list[tuple[float, float, float]] = field(
+        default_factory=list
+    )  # (theta_deg, value, error)
     draws: sampling.Draws | None = None
 
 
@@ -112,7 +115,7 @@ def _by_angle(points: Points, found: Errors, value: float) -> list[tuple[float, 
     worst = np.maximum.reduceat(found.own, starts)
     wo = points.wo[starts].astype(np.float64)
     theta = np.degrees(np.arctan2(np.hypot(wo[:, 0], wo[:, 1]), wo[:, 2]))
-    return [(float(t), value, float(e)) for t, e in zip(theta, worst)]
+    return [(float(t), value, float(e)) for t, e in zip(theta, worst, strict=False)]
 
 
 def _against_exact(result: Outcome, narrow: Rung, points: Points, q: Any, found: Errors) -> None:
@@ -135,7 +138,11 @@ def _against_exact(result: Outcome, narrow: Rung, points: Points, q: Any, found:
 
 
 def _climb_from(
-    result: Outcome, narrow: Rung, wide: Rung, candidates: list[tuple[climb.Found, Any]], quick: bool
+    result: Outcome,
+    narrow: Rung,
+    wide: Rung,
+    candidates: list[tuple[climb.Found, Any]],
+    quick: bool,
 ) -> None:
     rng = np.random.default_rng(7)
     ranked = sorted(candidates, key=lambda c: c[0].own, reverse=True)

@@ -1,4 +1,5 @@
 """How a model keeps its digits in half, single, double and long double precision."""
+
 from __future__ import annotations
 
 import time

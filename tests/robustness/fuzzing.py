@@ -1,4 +1,5 @@
 """What to throw at the program: strategies shared by the tests and the long runs."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -9,9 +10,42 @@ from hypothesis import strategies as st
 #: Exit codes that are answers; 70 is an internal error, anything else a crash.
 ANSWERS = (0, 1, 2, 3, 4, 5)
 
-MODELS = ["lambert", "lambert_unnormalised", "ggx", "nosuch", "", "all.py", "lambert.py:", ".", "/", "\0"]
-NUMBERS = ["0", "1", "-1", "0.5", "1e400", "nan", "inf", "2^", "^3", "2^2^2", "1_0", "0x10", "1/2",
-           "0:1:3", "0:1", "1:0:log3", "0:90:2", "::", ",", "\u0663", "1e-320", "9" * 500]  # fmt: skip
+MODELS = [
+    "lambert",
+    "lambert_unnormalised",
+    "ggx",
+    "nosuch",
+    "",
+    "all.py",
+    "lambert.py:",
+    ".",
+    "/",
+    "\0",
+]
+NUMBERS = [
+    "0",
+    "1",
+    "-1",
+    "0.5",
+    "1e400",
+    "nan",
+    "inf",
+    "2^",
+    "^3",
+    "2^2^2",
+    "1_0",
+    "0x10",
+    "1/2",
+    "0:1:3",
+    "0:1",
+    "1:0:log3",
+    "0:90:2",
+    "::",
+    ",",
+    "\u0663",
+    "1e-320",
+    "9" * 500,
+]
 SAMPLES = ["1", "7", "2^6", "0", "-3", "1e99", "2^99", "x", "", "1.5", "\u0662"]
 odd = st.sampled_from(NUMBERS) | st.text(max_size=8)
 names = st.sampled_from(MODELS) | st.text(max_size=8)
@@ -26,17 +60,26 @@ def command_lines() -> st.SearchStrategy[list[str]]:
     model = _option("--model", names)
     options = st.one_of(
         model,
-        _option("-p", st.sampled_from(["albedo=", "alpha=", "=1", "f0=1/", "c="]).flatmap(
-            lambda a: odd.map(lambda v: a + v))),
-        _option("--theta-o", odd), _option("--phi-o", odd), _option("--seed", odd),
+        _option(
+            "-p",
+            st.sampled_from(["albedo=", "alpha=", "=1", "f0=1/", "c="]).flatmap(
+                lambda a: odd.map(lambda v: a + v)
+            ),
+        ),
+        _option("--theta-o", odd),
+        _option("--phi-o", odd),
+        _option("--seed", odd),
         _option("--points", st.sampled_from(["sobol", "independent", "", "lattice2"])),
         _option("--sampler", st.sampled_from(["all", "own", "cosine,uniform", ",", "x"])),
-        _option("--tolerance", odd), _option("--threads", st.sampled_from(["1", "2", "0", "x", "1e9"])),
+        _option("--tolerance", odd),
+        _option("--threads", st.sampled_from(["1", "2", "0", "x", "1e9"])),
         _option("--format", st.sampled_from(["text", "json", "yaml", ""])),
-        _option("--export-json", st.sampled_from(["FOLDER/r.json", "FOLDER/no/r.json", "FOLDER", ""])),
+        _option(
+            "--export-json", st.sampled_from(["FOLDER/r.json", "FOLDER/no/r.json", "FOLDER", ""])
+        ),
         _option("--plot", st.sampled_from(["FOLDER/r.png", "FOLDER/r.gif", ""])),
         st.text(max_size=10).map(lambda t: [t]),
-    )  # fmt: skip
+    )
     tails = st.lists(options, max_size=5).map(lambda rows: [w for row in rows for w in row])
     few = _option("--samples", st.sampled_from(SAMPLES))  # last, so that it wins
     furnace = st.tuples(model, tails, few).map(lambda t: ["furnace", *t[0], *t[1], *t[2]])
@@ -53,12 +96,36 @@ def in_folder(arguments: list[str], folder: Path) -> list[str]:
 
 
 LINES = [
-    "import math", "def f(wo, wi, p):", "    return 0.3", "def sample(wo, u, p):", "    return u",
-    "def pdf(wo, wi, p):", "class Params:", "    albedo = 1", "domain = 3", "domain = {'a': 1}",
-    "choices = {'n': {}}", "choices = 7", "choices = {'n': {'a': 1}}", "verified = 5", "f = 3", "raise",
-    "raise SystemExit", "1/0", "disclaims = []", "lobe = 1", "def f(a):", "prepare = f", "\tx", "'''",
-    "kinks = 3", "from nowhere import f", "isotropic = 'no'", "lossless = 'x'", "scales_with = 4",
-]  # fmt: skip
+    "import math",
+    "def f(wo, wi, p):",
+    "    return 0.3",
+    "def sample(wo, u, p):",
+    "    return u",
+    "def pdf(wo, wi, p):",
+    "class Params:",
+    "    albedo = 1",
+    "domain = 3",
+    "domain = {'a': 1}",
+    "choices = {'n': {}}",
+    "choices = 7",
+    "choices = {'n': {'a': 1}}",
+    "verified = 5",
+    "f = 3",
+    "raise",
+    "raise SystemExit",
+    "1/0",
+    "disclaims = []",
+    "lobe = 1",
+    "def f(a):",
+    "prepare = f",
+    "\tx",
+    "'''",
+    "kinks = 3",
+    "from nowhere import f",
+    "isotropic = 'no'",
+    "lossless = 'x'",
+    "scales_with = 4",
+]
 
 
 def model_files() -> st.SearchStrategy[bytes]:
@@ -71,20 +138,44 @@ def model_files() -> st.SearchStrategy[bytes]:
 def reports() -> st.SearchStrategy[Any]:
     """JSON that looks like a report, with anything in any place."""
     leaf = st.none() | st.booleans() | st.floats() | st.integers() | st.text(max_size=4)
-    anything = st.recursive(leaf, lambda s: st.lists(s, max_size=3) | st.dictionaries(
-        st.sampled_from(["where", "value", "quantity", "theta_o_deg", "x"]), s, max_size=3), max_leaves=6)
+    anything = st.recursive(
+        leaf,
+        lambda s: (
+            st.lists(s, max_size=3)
+            | st.dictionaries(
+                st.sampled_from(["where", "value", "quantity", "theta_o_deg", "x"]), s, max_size=3
+            )
+        ),
+        max_leaves=6,
+    )
     finding = st.fixed_dictionaries(
-        {"quantity": st.just("A") | anything, "where": st.just({"theta_o_deg": 30.0}) | anything,
-         "verdict": st.just("pass") | anything},
-        optional={"value": anything, "stderr": anything, "expected": anything, "tolerance": anything},
-    )  # fmt: skip
+        {
+            "quantity": st.just("A") | anything,
+            "where": st.just({"theta_o_deg": 30.0}) | anything,
+            "verdict": st.just("pass") | anything,
+        },
+        optional={
+            "value": anything,
+            "stderr": anything,
+            "expected": anything,
+            "tolerance": anything,
+        },
+    )
     result = st.fixed_dictionaries(
-        {"model": st.just("x") | anything, "params": st.just({}) | anything,
-         "findings": st.lists(finding, max_size=3) | anything},
+        {
+            "model": st.just("x") | anything,
+            "params": st.just({}) | anything,
+            "findings": st.lists(finding, max_size=3) | anything,
+        },
         optional={"curves": anything, "check": anything},
-    )  # fmt: skip
+    )
     command = st.sampled_from(["furnace", "stress", "run", None])
     report = st.fixed_dictionaries(
-        {"schema": st.just(1), "command": command, "verdict": st.just("pass") | anything,
-         "results": st.lists(result | anything, max_size=2)})  # fmt: skip
+        {
+            "schema": st.just(1),
+            "command": command,
+            "verdict": st.just("pass") | anything,
+            "results": st.lists(result | anything, max_size=2),
+        }
+    )
     return report | anything | st.text(max_size=30)

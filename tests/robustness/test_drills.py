@@ -1,4 +1,5 @@
-"""What goes wrong around the program: each drill ends in a clear sentence or in the right result."""
+"""What goes wrong around the program: each drill ends in a clear sentence or a right result."""
+
 from __future__ import annotations
 
 import json
@@ -15,7 +16,17 @@ from typing import Any
 import pytest
 
 COMMAND = [sys.executable, "-m", "montecarlo_brdf"]
-QUICK = ["furnace", "--model", "lambert", "--theta-o", "0,60", "--samples", "2^10", "--format", "json"]
+QUICK = [
+    "furnace",
+    "--model",
+    "lambert",
+    "--theta-o",
+    "0,60",
+    "--samples",
+    "2^10",
+    "--format",
+    "json",
+]
 
 
 def start(*arguments: Any, cache: Path | None, **options: Any) -> subprocess.Popen[str]:
@@ -163,10 +174,18 @@ def test_full_home(tmp_path: Path, truth: Any) -> None:
     assert code == 0 and results(out) == truth
 
 
-TEXTS = [QUICK[:-2], ["models"], ["show", "oren_nayar"], ["furnace", "--help"], ["show", "\u00f8re"]]
+TEXTS = [
+    QUICK[:-2],
+    ["models"],
+    ["show", "oren_nayar"],
+    ["furnace", "--help"],
+    ["show", "\u00f8re"],
+]
 
 
-@pytest.mark.parametrize("text", TEXTS, ids=lambda t: " ".join(t[:2]).encode("ascii", "replace").decode())
+@pytest.mark.parametrize(
+    "text", TEXTS, ids=lambda t: " ".join(t[:2]).encode("ascii", "replace").decode()
+)
 def test_locales_without_unicode(text: list[str], warm: Path) -> None:
     plain = {"LC_ALL": "C", "LANG": "C", "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     code, out, err = run(*text, cache=warm, env=plain)

@@ -2,6 +2,7 @@
 
 The long runs are scripts/fuzz.py, which draws from the same strategies.
 """
+
 from __future__ import annotations
 
 import json
@@ -24,7 +25,9 @@ QUIET = settings(
 
 @QUIET
 @given(fuzzing.command_lines())
-def test_command_lines(tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]) -> None:
+def test_command_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str]
+) -> None:
     assert run(fuzzing.in_folder(arguments, tmp_path)) in fuzzing.ANSWERS
 
 

@@ -1,4 +1,8 @@
-"""Failure 1. A cosine sample with x and y doubled is no unit vector, printed in a book for years."""
+"""Failure 1.
+
+A cosine sample with x and y doubled is no unit vector, printed in a book for years.
+"""
+
 import math
 
 found_by = ("run", "sampling")

@@ -1,4 +1,8 @@
-"""Failure 2. The pdf says uniform, the sampler is cosine-weighted; a wrong weight cancels it in the picture."""
+"""Failure 2.
+
+The pdf says uniform, the sampler is cosine-weighted; a wrong weight cancels it in the picture.
+"""
+
 import math
 
 found_by = ("run", "sampling")

@@ -1,4 +1,5 @@
 """Failure 4. n + a uniform direction, not normalised."""
+
 import math
 
 found_by = ("run", "sampling")

@@ -1,4 +1,5 @@
 """Failure 5. The pdf of a visible-normal sampler called with wo and wi exchanged."""
+
 from montecarlo_brdf.models import ggx
 from montecarlo_brdf.models.ggx import Params, domain, f, sample  # noqa: F401
 

@@ -1,4 +1,5 @@
 """Failure 6. The sampler picks the lobe with probability 1/2, the pdf says 0.55."""
+
 import math
 
 from montecarlo_brdf.models import ggx

@@ -1,4 +1,5 @@
 """Failure 7. The density of the half vector returned for that of wi: 1/(4 wo.h) is missing."""
+
 import math
 
 from montecarlo_brdf.models import blinn_phong

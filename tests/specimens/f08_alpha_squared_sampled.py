@@ -1,4 +1,5 @@
 """Failure 8. The sampler squares a width that is alpha already."""
+
 from montecarlo_brdf.models._microfacet import sample_visible
 from montecarlo_brdf.models.ggx import Params, domain, f, pdf  # noqa: F401
 

@@ -1,4 +1,5 @@
 """Failure 10. The returned weight is f cos, not divided by the pdf."""
+
 import math
 
 found_by = ("run", "pdf")

@@ -1,4 +1,5 @@
 """Failure 12. abs() turns samples from below the horizon up again; the pdf does not know."""
+
 from montecarlo_brdf.models import phong
 from montecarlo_brdf.models.phong import Params, domain, f, pdf  # noqa: F401
 

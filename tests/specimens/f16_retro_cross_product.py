@@ -1,4 +1,5 @@
 """Failure 16. A frame from the cross product of wi and wo, which is zero where they are equal."""
+
 import math
 
 from montecarlo_brdf.vectors import cross, length

@@ -1,4 +1,8 @@
-"""Failure 17. A difference angle divided by the sine of the half angle: 0/0 where light = view = normal."""
+"""Failure 17.
+
+A difference angle divided by the sine of the half angle: 0/0 where light = view = normal.
+"""
+
 import math
 
 from montecarlo_brdf.vectors import half_vector

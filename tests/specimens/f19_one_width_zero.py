@@ -1,4 +1,5 @@
 """Failure 19. Anisotropic GGX whose domain includes alpha_x = 0: h_x/alpha_x is 0/0."""
+
 import math
 from typing import NamedTuple
 

@@ -1,4 +1,8 @@
-"""Failure 20. Oren-Nayar with azimuth vectors normalised, also at normal incidence where there is none."""
+"""Failure 20.
+
+Oren-Nayar with azimuth vectors normalised, also at normal incidence where there is none.
+"""
+
 import math
 
 found_by = ("run", "positivity")

@@ -1,4 +1,5 @@
 """Failure 21. acos of a dot product that rounding pushed beyond 1."""
+
 import math
 
 found_by = ("stress", "float64")

@@ -1,4 +1,5 @@
 """Failure 22. Schlick's (1 - cos)^5 by log, with a cosine that rounding pushed beyond 1."""
+
 import math
 
 from montecarlo_brdf.vectors import dot, half_vector

@@ -1,4 +1,5 @@
 """Failure 23. pow(r.v, n) without max(0, r.v): NaN wherever n is not whole."""
+
 import math
 from typing import NamedTuple
 

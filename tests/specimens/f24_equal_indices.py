@@ -1,4 +1,5 @@
 """Failure 24. Fresnel by angles, sin(a - b)/sin(a + b): 0/0 at the normal and for eta = 1."""
+
 import math
 from typing import NamedTuple
 

@@ -1,4 +1,5 @@
 """Failure 26. Henyey-Greenstein at g = 1: (1 - g^2)/(1 + g^2 - 2 g c)^1.5 is 0/0 straight on."""
+
 import math
 from typing import NamedTuple
 

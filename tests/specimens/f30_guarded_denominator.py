@@ -1,4 +1,5 @@
 """Failure 30. max(denominator, 0.001) removes the highlight."""
+
 from montecarlo_brdf.stability.specimens.guarded_ggx import (  # noqa: F401
     Params,
     domain,

@@ -1,4 +1,5 @@
 """Failure 31. alpha^2 of a small alpha is 0 in half precision: 0/0 in Smith's G."""
+
 import math
 from typing import NamedTuple
 

@@ -1,4 +1,5 @@
 """Failure 32. GGX whose domain includes alpha = 0: 0/0 in the mirror direction."""
+
 import math
 from typing import NamedTuple
 

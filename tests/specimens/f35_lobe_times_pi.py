@@ -1,4 +1,5 @@
 """Failure 35. A glossy lobe times pi in an albedo output: values far above 1."""
+
 import math
 
 from montecarlo_brdf.models import ggx

@@ -1,4 +1,9 @@
-"""Failure 36. Energy right at metalness 0 and 1, too much between: a blend of products for a product of blends."""
+"""Failure 36.
+
+Energy right at metalness 0 and 1, too much between: a blend of products for a product of
+blends.
+"""
+
 import math
 from typing import NamedTuple
 

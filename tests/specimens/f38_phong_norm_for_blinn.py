@@ -1,4 +1,5 @@
 """Failure 38. Blinn-Phong with Phong's normalisation (n+2)/(2 pi)."""
+
 import math
 
 from montecarlo_brdf.models import blinn_phong

@@ -1,4 +1,5 @@
 """Failure 39. Lambert without 1/pi."""
+
 from typing import NamedTuple
 
 found_by = ("run", "furnace")

@@ -1,4 +1,5 @@
 """Failure 40. Oren-Nayar divided by pi twice."""
+
 import math
 
 from montecarlo_brdf.models import oren_nayar

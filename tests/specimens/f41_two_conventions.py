@@ -1,4 +1,5 @@
 """Failure 41. D takes alpha, G takes its square root for the same parameter."""
+
 import math
 
 from montecarlo_brdf.models._microfacet import ggx_density, half_sums, stretched

@@ -1,4 +1,5 @@
 """Failure 42. h = L - V: no half vector where light and view agree."""
+
 import math
 
 from montecarlo_brdf.vectors import normalised

@@ -1,4 +1,5 @@
 """Failure 44. min(1, f) clips the highlight."""
+
 from montecarlo_brdf.models import ggx
 from montecarlo_brdf.models.ggx import Params, domain, lobe  # noqa: F401
 

@@ -1,4 +1,5 @@
 """Failure 45. Lommel-Seeliger eight times too bright."""
+
 import math
 
 found_by = ("run", "energy")

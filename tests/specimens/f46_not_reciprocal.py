@@ -1,4 +1,5 @@
 """Failure 46. A view-dependent weight on the diffuse base only."""
+
 import math
 
 found_by = ("run", "reciprocity")

@@ -1,4 +1,5 @@
 """Failure 47. The returned weight forgets that the lobe was chosen with probability 1/2."""
+
 import math
 
 from montecarlo_brdf.sampling.warps import random_hemisphere, random_hemisphere_cosine

@@ -1,4 +1,5 @@
 """Failure 48. Anisotropic GGX with alpha_x and alpha_y exchanged."""
+
 from montecarlo_brdf.models import ggx_anisotropic
 from montecarlo_brdf.models.ggx_anisotropic import (  # noqa: F401
     Params,

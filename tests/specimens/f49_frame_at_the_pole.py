@@ -1,4 +1,8 @@
-"""Failure 49. A frame from the cross product with the normal, which is zero for light straight on."""
+"""Failure 49.
+
+A frame from the cross product with the normal, which is zero for light straight on.
+"""
+
 import math
 
 from montecarlo_brdf.vectors import cross, mirrored, normalised

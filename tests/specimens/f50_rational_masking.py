@@ -1,4 +1,8 @@
-"""Failure 50. Walter's rational fit of Beckmann masking where the exact one is declared: 0.3 % off."""
+"""Failure 50.
+
+Walter's rational fit of Beckmann masking where the exact one is declared: 0.3 % off.
+"""
+
 import math
 
 from montecarlo_brdf.models._microfacet import beckmann_density, half_sums

@@ -1,4 +1,5 @@
 """The failures that others published, reproduced by the ladder, each with its number."""
+
 from __future__ import annotations
 
 import math
@@ -39,7 +40,9 @@ def textbook(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @pytest.mark.parametrize(("alpha", "published"), [(0.1, 2e-5), (0.01, 1.5e-3), (0.001, 0.12)])
-def test_textbook_ggx_loses_a_rounding_of_1_over_alpha_squared(alpha: float, published: float) -> None:
+def test_textbook_ggx_loses_a_rounding_of_1_over_alpha_squared(
+    alpha: float, published: float
+) -> None:
     # Below 1 a rounding is 2^-25. d = c^2 (a^2 - 1) + 1, near its minimum a^2, takes that of c
     # twice and those of c^2, a^2 - 1, their product and the sum: 6 * 2^-25/a^2; D has d squared.
     d = 6.0 * 2.0**-25 / alpha**2
@@ -54,7 +57,7 @@ def integral(density: Callable[[float, float], float], alpha: float) -> float:
     t = np.exp(np.arange(-18.0, 6.0, step))
     weights = step * 2.0 * math.pi * t**2 / (1.0 + t**2) ** 2  # c dc = t dt/(1 + t^2)^2
     c = 1.0 / np.sqrt(1.0 + t**2)
-    return float(sum(k * density(float(v), alpha) for k, v in zip(weights, c)))
+    return float(sum(k * density(float(v), alpha) for k, v in zip(weights, c, strict=False)))
 
 
 @pytest.mark.parametrize(
@@ -67,7 +70,9 @@ def integral(density: Callable[[float, float], float], alpha: float) -> float:
         (biased_ggx, 0.05, 0.0098, 0.0001),
     ],
 )
-def test_guards_remove_the_highlight(specimen: Any, roughness: float, published: float, digit: float) -> None:
+def test_guards_remove_the_highlight(
+    specimen: Any, roughness: float, published: float, digit: float
+) -> None:
     alpha = roughness**2
     assert integral(textbook_ggx.density, alpha) == pytest.approx(1.0, abs=1e-4)  # tail beyond e^6
     assert abs(integral(specimen.density, alpha) - published) <= 0.5 * digit + 1e-4

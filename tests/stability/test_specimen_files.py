@@ -1,4 +1,5 @@
 """Failures that users reported, as the files they would have written, each found by its command."""
+
 from __future__ import annotations
 
 from pathlib import Path

@@ -2,6 +2,7 @@
 
 Each is a model file like any other; `brdf-check stress --model NAME` and `--compare` know them.
 """
+
 from __future__ import annotations
 
 import importlib
@@ -23,5 +24,7 @@ def load(spec: str) -> Model:
         return build(spec, vars(importlib.import_module(f"{__name__}.{spec}")), {}, built_in=False)
     known = loading.names()
     if spec not in known and not any(mark in spec for mark in (".py", "+")):
-        raise UserError(unknown("model", spec, [*known, *names()]) + ", or give the path of a .py file")
+        raise UserError(
+            unknown("model", spec, [*known, *names()]) + ", or give the path of a .py file"
+        )
     return loading.load(spec)

@@ -3,6 +3,7 @@
 acos of a cosine near 1 has lost half its digits: in single precision it knows no angle between 0
 and 0.0003. To ship: tan^2 = (x^2 + y^2)/z^2 of the unnormalised half vector, as `beckmann` does.
 """
+
 from __future__ import annotations
 
 import math

@@ -4,6 +4,7 @@ The bias outgrows d^2 = alpha^4 below alpha = 0.03: int D cos dw falls to 0.15 a
 0.0098 at roughness 0.05 (alpha = roughness^2). No precision helps. To ship: no guard; `ggx` divides
 by a sum of squares.
 """
+
 from __future__ import annotations
 
 import math

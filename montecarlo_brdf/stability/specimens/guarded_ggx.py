@@ -4,6 +4,7 @@ pi d^2 is about pi alpha^4 at the peak: below 1e-3 for alpha < 0.13, so the high
 int D cos dw falls to 0.70, 0.17, 0.011 at roughness 0.3, 0.2, 0.1 (alpha = roughness^2). No
 precision helps. To ship: no guard; `ggx` divides by a sum of squares.
 """
+
 from __future__ import annotations
 
 import math

@@ -3,6 +3,7 @@
 c^2 - 1 cancels near the normal: the exponent is wrong by eps/alpha^2. To ship: tan^2 = (x^2 +
 y^2)/z^2 of the unnormalised half vector, as `beckmann` does.
 """
+
 from __future__ import annotations
 
 import math

@@ -4,6 +4,7 @@
 wrong by 7.8e-4 near mu = 1.7e-4. To ship: s mu (1 + s + s^2)/(1 + s) for it, and 1 - E written with
 terms that vanish at grazing, as `eon` does.
 """
+
 from __future__ import annotations
 
 import math

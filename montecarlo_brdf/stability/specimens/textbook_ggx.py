@@ -4,6 +4,7 @@ Near n.h = 1 the sum is about alpha^2 and keeps an error of one rounding of 1: D
 2 eps/alpha^2, 12 % in single precision at alpha = 0.001. To ship: alpha |H|^2/(alpha^2 z^2 + x^2 +
 y^2) of the unnormalised half vector, as `ggx` does, or |n x h|^2 for 1 - (n.h)^2 (Filament, 4.4.1).
 """
+
 from __future__ import annotations
 
 import math

@@ -3,6 +3,7 @@
 The cosine c near 1 is rounded by eps/2 and c^n multiplies that by n: 3e-4, 3e-3, 3e-2 in single
 precision at n = 1e4, 1e5, 1e6. To ship: exp(n log1p(-d)) with d = |r - v|^2/2, as `phong` does.
 """
+
 from __future__ import annotations
 
 import math
