@@ -6,12 +6,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import click
+
 from montecarlo_brdf import verify
 from montecarlo_brdf.cli import _options, _project
 from montecarlo_brdf.cli._jobs import Job, from_options
 from montecarlo_brdf.cli._progress import progress
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.report import baseline
 from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.report.read import read_report
 
 INTERRUPTED = 130
 #: options that stand above a project's file if they are given -> the field of Job
@@ -32,6 +36,7 @@ def run_all(options: dict[str, Any], given: Sequence[str]) -> int:
     given: the options that were given, not left at their defaults.
     """
     _options.check_outputs(options["form"], options["export_json"])
+    earlier = read_report(options["baseline"]) if options["baseline"] else None
     seed = _options.seed_of(options["seed"])
     if options["spec"]:
         jobs = from_options(options, seed)
@@ -44,7 +49,21 @@ def run_all(options: dict[str, Any], given: Sequence[str]) -> int:
     code = _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
     )
-    return INTERRUPTED if report.measured.get("interrupted") else code
+    if report.measured["interrupted"]:
+        return INTERRUPTED
+    return code if earlier is None else _difference(report, earlier)
+
+
+def _difference(report: Report, earlier: dict[str, Any]) -> int:
+    """Tell on stderr what changed; the exit code counts only what got worse."""
+    found = baseline.changes(report.to_dict(), earlier)
+    for change in found:
+        click.echo(str(change), err=True)
+    worse = sum(change.kind in baseline.KINDS[:2] for change in found)
+    click.echo(f"baseline: {worse} worse, {len(found) - worse} other changes", err=True)
+    code = baseline.exit_code(found)
+    policy = report.settings.get("inconclusive")
+    return {"pass": 0, "fail": 1}.get(str(policy), code) if code == 3 else code
 
 
 def _asked_project(options: dict[str, Any], seed: int, given: Sequence[str]) -> _project.Project:

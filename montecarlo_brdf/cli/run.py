@@ -26,11 +26,16 @@ Examples:
 @click.option("--check", "names", default="all", show_default=True, metavar="NAMES",
               help="Which checks, separated by commas. [--check energy,pdf]")
 @click.option("--theta-o", default="0,45,80", show_default=True, metavar="DEGREES",
-              help="Angles of the viewer in [0, 90) for checks that look at some. [--theta-o 0:85:6]")
+              help="Angles of the viewer in [0, 90) for checks that look at some. "
+              "[--theta-o 0:85:6]")
 @click.option("--phi-o", default="0", metavar="DEGREES", help="Azimuth of the viewer. [--phi-o 45]")
-@click.option("--against", metavar="MODEL", help="A model that it must equal in values. [--against ggx]")
+@click.option("--against", metavar="MODEL",
+              help="A model that it must equal in values. [--against ggx]")
 @click.option("--max-time", type=float, metavar="SECONDS",
               help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
+@click.option("--baseline", type=click.Path(path_type=Path), metavar="REPORT.json",
+              help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
+              "[--baseline main.json]")  # fmt: skip
 @_options.sampling_options
 @_options.output_options
 def command(**options: Any) -> int:
