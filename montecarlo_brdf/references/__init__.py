@@ -9,12 +9,14 @@ One file per model: `references/ggx.py` is the truth about `models/ggx.py`. A fi
 
 and nothing here is listed by hand: a new file in this folder is a new reference. The names with an
 underscore are the machinery: `_truth` (results), `_gamma` and `_fresnel` (special functions),
-`_rules` and `_quadrature` (deterministic integration). No file imports anything else of the
+`_rules`, `_quadrature` and `_adaptive` (deterministic integration; `_quadrature.quadrature` takes
+any f). No file imports anything else of the
 package, and numpy and scipy are imported only when a function needs them.
 """
 
 import importlib
 import pkgutil
+from functools import cache
 from types import ModuleType
 
 from montecarlo_brdf.references._truth import Truth
@@ -27,6 +29,7 @@ def names() -> list[str]:
     return [m.name for m in pkgutil.iter_modules(__path__) if not m.name.startswith("_")]
 
 
+@cache  # looking into the folder takes longer than most closed forms
 def find(name: str) -> ModuleType | None:
     """The reference module of a model, or None if the model has no reference."""
     return importlib.import_module(f"{__name__}.{name}") if name in names() else None

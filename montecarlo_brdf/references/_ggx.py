@@ -74,7 +74,7 @@ def mean_albedo(alpha: float) -> tuple[float, float]:
 
 
 DEGREE, DEEPEST = 19, 40
-TABLE_ERROR = 4e-13  # relative: the bound of `unit_albedo` and of a degree-19 series on an octave
+TABLE_ERROR = 2e-12  # relative: the bound of `unit_albedo` and of a degree-19 series on an octave
 
 
 @lru_cache(maxsize=512)

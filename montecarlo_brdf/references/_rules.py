@@ -91,7 +91,7 @@ def total(terms: Array) -> Sum:
     return Sum(float(terms.sum()), float(np.abs(terms).sum()))
 
 
-ENOUGH = 1e-13  # relative difference of two node sets at which refining stops
+ENOUGH = 1e-12  # relative difference of two node sets at which refining stops
 GROWTH = 1.3  # ratio of their sizes per dimension, more than a step of `node_count`
 ROUNDING = 64.0 * EPSILON  # relative: some fifty operations per term, some of them common to all
 
