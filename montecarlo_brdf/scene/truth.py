@@ -78,8 +78,11 @@ def constant_f(model: Model, p: Any, irradiance: float) -> Reference:
 def _under(sky: skies.Sky, model: Model, p: Any, wo: Vec, channel: int) -> Reference:
     shape = sky.shapes[channel]
     if ignores_directions(model):
-        e = irradiance(sky, channel)
-        return constant_f(model, p, e)._replace(source=f"Lambert under {type(shape).__name__}")
+        found = constant_f(model, p, irradiance(sky, channel))
+        # the area of a cap at the horizon is a difference of terms as large as its sine
+        terms = math.sqrt(shape.depth * (2.0 - shape.depth)) if isinstance(shape, skies.Cap) else 0.0
+        error = found.error + constant_f(model, p, 1e-15 * terms).value
+        return found._replace(error=error, source=f"E under {type(shape).__name__} times f")
     return _of_shape(model, p, shape, wo)
 
 
@@ -150,8 +153,6 @@ def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float
             return _sky.adaptive(g, region)
     if kind == "half vector" and model.isotropic:
         return _sky.half_vector(g, wo, width)
-    if kind == "mirror":
-        return _sky.adaptive(g, _sky.around(mirrored(wo), math.pi, mirrored(wo), width))
     if kind:
         return _sky.adaptive(g, _sky.around(mirrored(wo), math.pi, mirrored(wo), width))
     return _sky.adaptive(g, _sky.hemisphere(wo, width))
