@@ -110,6 +110,7 @@ class MeanClaim:
     property: str = "reference"
     reproduce: str = ""
     unit: Mapping[str, float] = field(default_factory=dict)  # what the hint compares the value with
+    fallback: Callable[[], Measurement] | None = None  # asked where samples leave the claim open
 
 
 Claim = MeanClaim | ExactClaim | FitClaim | Skip

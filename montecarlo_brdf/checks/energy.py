@@ -64,6 +64,9 @@ def claims(case: Case) -> Iterator[Claim]:
                 case.tolerated(BOUND_TOLERANCE),
                 functools.partial(_measure, single, quantity, p, spot.theta),
                 property=PROPERTY,
+                fallback=functools.partial(
+                    truth.deterministic, case.model, p, _fixed(case, spot.theta), quantity == "reverse"
+                ),
             )
 
 
@@ -126,13 +129,13 @@ def _fixed(case: Case, theta: float) -> Vec:
 
 
 def _measure(case: Case, quantity: str, p: Any, theta: float, plan: Plan) -> list[Measurement]:
-    """By every sampler that is fit and by quadrature."""
+    """By every sampler that is fit."""
     model, fixed = case.model, _fixed(case, theta)
     chosen = samplers_of(model, quantity)
     names = [integrand_name(model, quantity, s) for s in chosen]
     row = estimates(model, p, fixed, names, plan, (NAME, quantity))[0]
     sight = fitness.look(model, model.prepared(p), fixed)
-    sampled = [
-        Measurement(s, e, fitness.reason_unfit(s, e, sight, None)) for s, e in zip(chosen, row, strict=True)
+    return [
+        Measurement(s, e, fitness.reason_unfit(s, e, sight, None))
+        for s, e in zip(chosen, row, strict=True)
     ]
-    return [*sampled, truth.deterministic(model, p, fixed, quantity == "reverse")]

@@ -49,6 +49,7 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
         expected = truth.albedo(case.model, one, theta, case.phi_o_deg)
         scale = abs(expected.value) if expected else 1.0
         source = functools.partial(of_channel, measured, k)
+        quadrature = functools.partial(truth.deterministic, case.model, one, case.wo(theta))
         other = expected is not None and not expected.kind.startswith("quadrature")
         more = other and case.samplers is None  # a quadrature of f says nothing about itself
         yield MeanClaim(
@@ -57,8 +58,9 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
             "equal",
             expected,
             case.tolerated(AGREEMENT_TOLERANCE) * scale,
-            functools.partial(_and_quadrature, case, one, theta, source) if more else source,
+            source,
             unit=units(case.model, one),
+            fallback=quadrature if more else None,
         )
         yield MeanClaim(
             "A <= 1",
@@ -66,9 +68,10 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
             "at most",
             Reference(1.0, 0.0, "bound", "energy conservation"),
             case.tolerated(BOUND_TOLERANCE),
-            functools.partial(_and_quadrature, case, one, theta, source),
+            source,
             property=PROPERTY,
             unit=units(case.model, one),
+            fallback=quadrature,
         )
 
 
@@ -104,16 +107,6 @@ def units(model: Model, one: Any) -> dict[str, float]:
 def of_channel(measured: Any, k: int, plan: Plan) -> list[Measurement]:
     """The measurements of channel k."""
     return list(measured(plan)[k])
-
-
-def _and_quadrature(case: Case, one: Any, theta: float, source: Any, plan: Plan) -> list[Measurement]:
-    """What samples say and what a quadrature of f says, which resolves any lobe.
-
-    With a target the samples resolve it too, and a quadrature would take longer than they do.
-    """
-    if plan.target_error is not None:
-        return list(source(plan))
-    return [*source(plan), truth.deterministic(case.model, one, case.wo(theta))]
 
 
 def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:

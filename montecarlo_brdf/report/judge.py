@@ -55,13 +55,16 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
     spent = level
     for look, samples in enumerate(looks(plan.samples), start=1):
         spent = level * 2.0**-look
-        opinions = judged(claim, claim.measure(plan._replace(samples=samples)), spent)
+        measured = claim.measure(plan._replace(samples=samples))
+        opinions = judged(claim, measured, spent)
         if any(o.verdict == "fail" for o in opinions):
             if confirmed(claim, plan._replace(samples=samples), spent):
                 break
             opinions = [o._replace(verdict="inconclusive") if o.verdict == "fail" else o for o in opinions]
         elif opinions and all(o.verdict == "pass" for o in opinions):
             break
+    if claim.fallback and overall(opinions) == "inconclusive":
+        opinions = judged(claim, [*measured, claim.fallback()], spent)
     return _finding(claim, opinions, spent, level, known)
 
 
