@@ -56,7 +56,9 @@ def _called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
         if "math domain error" in str(error):
             return math.nan
         file = model.namespace.get("__file__", "")
-        raise ModelError(f"{member} of model {model.name} {raised(error, file)}") from error
+        few = member == "sample" and isinstance(error, IndexError)
+        told = " (u has 3 numbers: u[0], u[1], u[2])" if few else ""
+        raise ModelError(f"{member} of model {model.name} {raised(error, file)}{told}") from error
 
 
 def _number(model: Model, member: str, value: Any) -> None:
