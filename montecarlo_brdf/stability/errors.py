@@ -10,6 +10,10 @@ from montecarlo_brdf.stability.arithmetic import Arithmetic
 from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 
 
+#: Darker than this, per steradian, nobody sees the error (f0 = 0 leaves (1 - h.v)^5 = 1e-40).
+BLACK = 1e-20
+
+
 class Errors(NamedTuple):
     """Per point: the value, the truth, the relative errors, and what happened to the number."""
 
@@ -28,7 +32,9 @@ def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
     q = rounded(p, truth_type)
     wo, wi = unit(points.wo, truth_type), unit(points.wi, truth_type)
     truth = wide.f(wo, wi, q)
-    conditioning = _conditioning(wide, points, q, truth, type_)
+    raw = wide.f(truth_type.array(points.wo), truth_type.array(points.wi), q)
+    conditioning = _conditioning(wide, wo, wi, q, truth, type_.eps)
+    conditioning = conditioning + _finite_distance(raw, truth, truth_type)
     with np.errstate(all="ignore"):
         return judged(value, truth, conditioning, points, type_, truth_type)
 
@@ -53,7 +59,7 @@ def judged(
     shown, size, low = truth_type.array(value), np.abs(truth), lower_than_any_angle(points, type_)
     real = _finite(truth) & ~low
     largest = largest_of(np.where(real, size, truth_type.array(0.0)), points.group)
-    granted = truth_type.array(type_.eps) * largest + truth_type.array(type_.least)
+    granted = truth_type.array(type_.eps) * largest + truth_type.array(type_.least + BLACK)
     off = np.abs(shown - truth) - granted
     kinds = {
         "nan": _is_nan(shown),
@@ -74,32 +80,30 @@ def judged(
     )
 
 
-def _conditioning(wide: Rung, points: Any, q: Any, truth: Any, narrow: Arithmetic) -> Any:
-    """How far the true value moves when the directions move by their own rounding.
+def _conditioning(wide: Rung, wo: Any, wi: Any, q: Any, truth: Any, eps: float) -> Any:
+    """How far the true value moves when a direction is known to eps radians, as rounded ones are.
+    What vectors that are not quite of unit length do to the formula is added by the caller.
 
-    It is the sum over the six components of |f(w (1 + eps)) - f(w)|/2, and |f(w) - f(w/|w|)|,
-    because a function that assumes unit vectors cannot know that these are not.
+    The sum of |f(w moved) - f(w)|/2 over the moves of both directions by eps along each axis,
+    renormalised: a property of f on the sphere, not of how a formula behaves off it.
     """
     exact = wide.arithmetic.array
-    wo, wi = exact(points.wo), exact(points.wi)
-    zero = exact(0.0)
-    raw = wide.f(wo, wi, q)
-
-    def moved(value: Any, scale: float) -> Any:
-        with np.errstate(all="ignore"):
-            step = np.abs(value - raw) * scale
-        return np.where(_finite(step), step, zero)
-
-    with np.errstate(all="ignore"):
-        off = np.abs(raw - truth)
-    total = np.where(_finite(off), off, zero)
-    for w, which in ((wo, 0), (wi, 1)):
+    total = np.full(len(wo), exact(0.0), dtype=wide.arithmetic.dtype)
+    for w, wo_moves in ((wo, True), (wi, False)):
         for k in range(3):
             turned = w.copy()
-            turned[:, k] = turned[:, k] * exact(1.0 + narrow.eps)
-            pair = (turned, wi) if which == 0 else (wo, turned)
-            total = total + moved(wide.f(*pair, q), 0.5)
+            turned[:, k] = turned[:, k] + exact(eps)
+            turned = unit(turned, wide.arithmetic)
+            value = wide.f(turned, wi, q) if wo_moves else wide.f(wo, turned, q)
+            total = total + _finite_distance(value, truth, wide.arithmetic) * exact(0.5)
     return total
+
+
+def _finite_distance(a: Any, b: Any, arithmetic: Arithmetic) -> Any:
+    """|a - b|, 0 where it is not finite."""
+    with np.errstate(all="ignore"):
+        step = np.abs(a - b)
+    return np.where(_finite(step), step, arithmetic.array(0.0))
 
 
 def largest_of(size: Any, group: Any) -> Any:

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-found_by = ("run", "positivity")
+found_by = ("stress", "float64")
 isotropic = False
 domain = {"alpha_x": (0.0, 1.0), "alpha_y": (0.0, 1.0)}
 

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-found_by = ("run", "positivity")
+found_by = ("stress", "float64")
 domain = {"g": (-1.0, 1.0)}
 
 
