@@ -35,7 +35,8 @@ from montecarlo_brdf.statistics import FLOOR, Estimate, Moments, estimate
 from montecarlo_brdf.vectors import Vec
 
 LEVEL = 0.01  # of the interval that must be below the target, over all looks
-FIRST = 64  # samples of a replicate at the first look
+FIRST = 64  # samples of a replicate at the first look,
+FINE, FIRST_FINE = 1e-5, 256  # and where the target is finer than that: less has no chance
 MOST = {"lattice": 20, "sobol": 20, "stratified": 20, "independent": 22}  # log2, the last look
 SHARE = 0.25  # largest share of a replicate's total that a probed value may have
 LARGEST_NEED = 1 << 14  # samples of a replicate: beyond that the chart does not fit
@@ -201,7 +202,8 @@ def _climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Climb:
     ladder = work.Ladder(setting.entry, reals, width, key, plan.replicates)
     highest = _highest(setting, reals)
     most = min(1 << MOST[points], SETS[points][0])
-    size, errors = FIRST, [math.inf] * 3
+    size = FIRST_FINE if target <= FINE else FIRST
+    errors = [math.inf] * 3
     while True:
         shape = shape_of(points, size)
         if size * plan.replicates > work.CHUNK:

@@ -18,15 +18,22 @@ MOST_SERIES = len(COLOURS)
 
 def plot(report: dict[str, Any], path: Path) -> None:
     """Draw a report into a PNG, SVG or PDF file."""
-    kind = kind_of(path)
+    kind_of(path)
     if report.get("command") not in FIGURES:
         raise UserError(f"there is no picture for a report of {report.get('command')!r}")
     import matplotlib
 
     matplotlib.use("Agg")
-    figure = FIGURES[report["command"]](report)
+    save(FIGURES[report["command"]](report), path)
+
+
+def save(figure: Any, path: Path) -> None:
+    """Write a figure: equal figures give equal files."""
+    import matplotlib
+
+    kind = kind_of(path)
     content = io.BytesIO()
-    # a fixed hash salt and no date: equal reports give equal files
+    # a fixed hash salt and no date
     with matplotlib.rc_context({"svg.hashsalt": "montecarlo_brdf"}):
         figure.savefig(content, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else {})
     write_bytes(path, content.getvalue())
