@@ -35,7 +35,8 @@ LAST = 89.9
 INTERIOR = 20  # parameter sets of the scan
 SCAN = Plan(samples=1 << 10, replicates=4)
 CLIMB = Plan(samples=1 << 13, replicates=8)
-FIRST_STEP, LAST_STEP = 0.15, 0.003
+POLISH = Plan(samples=1 << 16, replicates=8)
+STEPS = {CLIMB: (0.15, 0.003), POLISH: (0.006, 0.0003)}  # first and last
 QUANTITIES = {"albedo": "A", "reverse": "R"}
 
 
@@ -84,15 +85,16 @@ def worst(case: Case, quantity: str) -> Spot:
         positions += [tuple(u[k % 5] for k in range(len(case.free))) for u in rows]
     scanned = [_spot(case, quantity, t, at, SCAN) for at in positions for t in ANGLES]
     scanned.sort(key=lambda s: s.value, reverse=True)
-    return max((_climb(case, quantity, s) for s in scanned[:2]), key=lambda s: s.value)
+    tops = (_climb(case, quantity, s, CLIMB) for s in scanned[:2])
+    return _climb(case, quantity, max(tops, key=lambda s: s.value), POLISH)
 
 
-def _climb(case: Case, quantity: str, spot: Spot) -> Spot:
+def _climb(case: Case, quantity: str, spot: Spot, plan: Plan) -> Spot:
     """Steps to the best neighbour, halved where there is none better."""
-    spot = _spot(case, quantity, spot.theta, spot.position, CLIMB)
-    step = FIRST_STEP
-    while step > LAST_STEP:
-        around = [_spot(case, quantity, t, at, CLIMB) for t, at in _neighbours(spot, step)]
+    spot = _spot(case, quantity, spot.theta, spot.position, plan)
+    step, last = STEPS[plan]
+    while step > last:
+        around = [_spot(case, quantity, t, at, plan) for t, at in _neighbours(spot, step)]
         best = max(around, key=lambda s: s.value)
         spot, step = (best, step) if best.value > spot.value else (spot, 0.5 * step)
     return spot
