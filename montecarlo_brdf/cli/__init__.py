@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import io
 import os
 import pkgutil
 import sys
@@ -69,6 +70,9 @@ def commands() -> None:
 def main() -> NoReturn:
     """The console script."""
     sys.stdout = sys.stdout or open(os.devnull, "w")  # noqa: SIM115  closed by `>&-`
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a locale without the degree sign is no error
+            stream.reconfigure(errors="replace")
     code = run(sys.argv[1:])
     _leave_at_once(code)
     sys.exit(code)
