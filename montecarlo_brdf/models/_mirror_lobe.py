@@ -19,8 +19,11 @@ def mirror_power(wo: Vec, wi: Vec, n: float) -> float:
 
 
 def sample_mirror_power(wo: Vec, u: Vec, n: float) -> Vec:
-    """cos = (1 - u)^(1/(n+1)) from the mirror direction; may fall below the horizon."""
-    d = -expm1(log1p(-u[0]) / (n + 1.0))
+    """cos = (1 - u)^(1/(n+1)) from the mirror direction; may fall below the horizon.
+
+    cos stays above 1e-15, where the rounded direction still has r.v > 0 and so a density (n = 0).
+    """
+    d = min(-expm1(log1p(-u[0]) / (n + 1.0)), 1.0 - 1e-15)
     s = math.sqrt(d * (2.0 - d))
     c1, s1 = turn(u[1])
     a, b = s * c1, s * s1
