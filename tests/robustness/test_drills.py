@@ -205,8 +205,8 @@ def test_no_terminal_at_all(warm: Path, truth: Any) -> None:
 
 @pytest.mark.parametrize("text", TEXTS[:4], ids=lambda t: " ".join(t[:2]))
 def test_closed_pipe(text: list[str], warm: Path) -> None:
-    process = start(*text, cache=warm)
-    assert process.stdout and process.stderr
-    process.stdout.close()
-    err = process.stderr.read()
-    assert process.wait(timeout=60) in (0, 5) and "Traceback" not in err and "Exception" not in err
+    with start(*text, cache=warm) as process:
+        assert process.stdout and process.stderr
+        process.stdout.close()
+        err = process.stderr.read()
+    assert process.returncode in (0, 5) and "Traceback" not in err and "Exception" not in err
