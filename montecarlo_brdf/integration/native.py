@@ -57,8 +57,14 @@ def compile_function(function: Callable[..., Any]) -> bytes:
 
     Raises NeedsRuntime if it needs more than libc, and numba's own errors if it does not compile.
     """
-    overload = _overload(function)
-    return _emit(overload.library.get_llvm_str(), overload.fndesc.llvm_func_name)
+    machine = _machine()
+    return bytes(machine.emit_object(_module(_overload(function), machine)))
+
+
+def assembly(function: Callable[..., Any]) -> str:
+    """The same as assembly text, to look at the instructions of a loop."""
+    machine = _machine()
+    return str(machine.emit_assembly(_module(_overload(function), machine)))
 
 
 def compile_in_process(function: Callable[..., Any]) -> NativeKernel:
@@ -91,16 +97,16 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def _emit(assembly: str, entry: str) -> bytes:
+def _module(overload: Any, machine: Any) -> Any:
+    """The LLVM module with nothing but the entry and what it needs of libc."""
     binding = _llvm()
-    module = binding.parse_assembly(assembly)
+    module = binding.parse_assembly(overload.library.get_llvm_str())
     for function in module.functions:
-        if function.name == entry:
+        if function.name == overload.fndesc.llvm_func_name:
             function.name = ENTRY
             function.linkage = "external"
         elif not function.is_declaration:
             function.linkage = "internal"
-    machine = _machine()
     _remove_dead_code(binding, module, machine)
     missing = sorted(
         f.name
@@ -109,7 +115,7 @@ def _emit(assembly: str, entry: str) -> bytes:
     )
     if missing:
         raise NeedsRuntime(", ".join(missing))
-    return bytes(machine.emit_object(module))
+    return module
 
 
 def _remove_dead_code(binding: Any, module: Any, machine: Any) -> None:
