@@ -8,6 +8,7 @@ from __future__ import annotations
 import glob
 import math
 import os
+import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -130,9 +131,9 @@ def mitsuba_llvm(work: Workload) -> Runs:
     """Mitsuba 3, LLVM variant: its own GGX (separable Smith, float32) and its own sampler."""
     if work.model_name != "ggx":
         raise ImportError("no such BSDF in Mitsuba")
-    known = [n for n in sorted(glob.glob("/usr/lib/*/libLLVM*.so*")) if "15" not in n]
-    if known:  # with LLVM 15 it aborts the process
-        os.environ.setdefault("DRJIT_LIBLLVM_PATH", known[-1])
+    if not (libraries := llvm_libraries()):
+        raise ImportError("no LLVM 17 or later: with 15 and 16 Dr.Jit aborts the process")
+    os.environ.setdefault("DRJIT_LIBLLVM_PATH", libraries[-1])
     import drjit as dr
     import mitsuba as mi
 
@@ -152,6 +153,13 @@ def mitsuba_llvm(work: Workload) -> Runs:
         return float(dr.mean(mi.Float64(value[0]))[0])
 
     yield from ((f"N = {n}", lambda seed, n=n: run(n, seed)) for n in SIZES)
+
+
+def llvm_libraries() -> list[str]:
+    """Shared libraries of LLVM 17 or later."""
+    found = glob.glob("/usr/lib/*/libLLVM*.so*")
+    version = {n: re.search(r"LLVM[-.so]*(\d+)", n) for n in found}
+    return sorted(n for n, v in version.items() if v and int(v.group(1)) >= 17)
 
 
 PEERS = {

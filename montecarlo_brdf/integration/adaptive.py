@@ -224,7 +224,8 @@ def _climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Climb:
 
 def _moments(states: list[float], width: int) -> list[list[Moments]]:
     """The states of a kernel as moments per channel and replicate."""
-    every = [Moments(*states[i : i + STATE]) for i in range(0, len(states), STATE)]
+    columns = (states[i::STATE] for i in range(STATE))
+    every = list(map(Moments._make, zip(*columns, strict=True)))
     return [every[k::width] for k in range(width)]
 
 
