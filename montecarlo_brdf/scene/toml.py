@@ -48,7 +48,7 @@ def line_of(text: str, path: Path_) -> int | None:
         else:
             continue
         shared = _shared(_flat(found, counts), path)
-        if shared > best and shared == len(found):
+        if shared > best and shared in (len(found), len(path)):
             best, at = shared, number
     return at
 

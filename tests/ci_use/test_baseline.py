@@ -1,0 +1,62 @@
+"""The difference of two reports, and when it fails a run."""
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.report import baseline
+from montecarlo_brdf.report.findings import Finding, Report, Result
+
+
+def report(*verdicts: str, theta: float = 0.0, command: str = "run") -> dict[str, Any]:
+    """A report with one finding per verdict, as its JSON file gives it back."""
+    findings = [Finding("A", {"theta_o_deg": theta + k}, v) for k, v in enumerate(verdicts) if v]
+    results = [Result("m", {"f0": (1.0, 0.5)}, "furnace", findings)]
+    plain: dict[str, Any] = json.loads(Report(command, {}, results).to_json())
+    return plain
+
+
+@pytest.mark.parametrize(
+    ("before", "now", "kind", "code"),
+    [
+        ("pass", "pass", None, 0),
+        ("fail", "fail", None, 0),
+        ("pass", "fail", "new failure", 1),
+        ("known", "fail", "new failure", 1),
+        ("inconclusive", "fail", "new failure", 1),
+        ("pass", "error", "new failure", 4),
+        ("fail", "error", "new failure", 4),
+        ("", "fail", "new failure", 1),
+        ("pass", "inconclusive", "newly undecided", 3),
+        ("fail", "inconclusive", "changed", 0),
+        ("fail", "pass", "fixed", 0),
+        ("inconclusive", "known", "fixed", 0),
+        ("pass", "known", "changed", 0),
+        ("pass", "", "gone", 0),
+        ("", "pass", None, 0),
+        ("", "known", "new", 0),
+    ],
+)
+def test_kinds_and_codes(before: str, now: str, kind: str | None, code: int) -> None:
+    found = baseline.changes(report("pass", now), report("pass", before))
+    assert [c.kind for c in found] == ([kind] if kind else [])
+    assert baseline.exit_code(found) == code
+
+
+def test_a_worst_case_found_elsewhere_is_the_same_finding() -> None:
+    assert baseline.changes(report("fail", theta=10.0), report("fail", theta=20.0)) == []
+    (change,) = baseline.changes(report("fail", theta=10.0), report("pass", theta=20.0))
+    assert str(change) == "new failure: m furnace A theta_o_deg=10.0 (pass -> fail)"
+
+
+def test_the_worst_comes_first() -> None:
+    found = baseline.changes(report("pass", "inconclusive", "fail"), report("fail", "pass", "pass"))
+    assert [c.kind for c in found] == ["new failure", "newly undecided", "fixed"]
+
+
+def test_reports_of_different_commands() -> None:
+    with pytest.raises(UserError, match="report of furnace, this is one of run"):
+        baseline.changes(report("pass"), report("pass", command="furnace"))
