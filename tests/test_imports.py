@@ -19,8 +19,9 @@ FLOW = (
     ("sampling", "statistics"),
     ("loading", "mixture", "model", "models"),
     ("integration",),
-    ("scene", "stability"),
+    ("bench", "stability"),
     ("checks",),
+    ("scene",),
     ("report",),
     ("verify",),
     ("cli",),
@@ -29,15 +30,16 @@ FLOW = (
     ("__main__",),
 )
 RANK = {part: rank for rank, row in enumerate(FLOW) for part in row}
-#: Imported by checks and report only, and importing nothing of the package.
+#: Imported by those who compare with the truth, and importing nothing of the package.
 REFERENCES = "references"
+COMPARE = ("bench", "checks", "report", "scene")
 #: What a model may use: a user's own file has exactly the form of a built-in one.
 FOR_MODELS = {"bits", "models", "sampling.warps", "special", "vectors"}
 #: package -> where it may be imported
 KEPT_IN = {
     "click": ("cli/",),
-    "matplotlib": ("report/plots.py",),
-    "numba": ("bits.py", "jit.py", "integration/"),
+    "matplotlib": ("report/",),
+    "numba": ("bits.py", "jit.py", "integration/", "bench/peers.py"),  # peers are what others do
     "llvmlite": ("bits.py", "jit.py", "integration/"),
     "rich": ("report/", "cli/_progress.py"),
 }
@@ -95,7 +97,7 @@ def wrong_way(part: str, tree: ast.AST) -> Iterator[str]:
         if part == REFERENCES:
             allowed = used == REFERENCES
         elif used == REFERENCES:
-            allowed = part in ("checks", "report")
+            allowed = part in COMPARE
         else:
             allowed = part == used or used == "errors" or RANK[used] <= RANK.get(part, -1)
         if not allowed:
@@ -142,7 +144,7 @@ def test_every_part_has_its_place() -> None:
         ("integration/wrong.py", "from montecarlo_brdf.references import albedo"),
         ("vectors.py", "def f():\n    from montecarlo_brdf.sampling import warps"),
         ("report/wrong.py", "import click"),
-        ("report/text.py", "def f():\n    import matplotlib.pyplot"),
+        ("verify/wrong.py", "def f():\n    import matplotlib.pyplot"),
         ("integration/wrong.py", "import numba"),
         ("checks/wrong.py", "def f():\n    import numba"),
         ("references/wrong.py", "import scipy.special"),
