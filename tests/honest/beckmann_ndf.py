@@ -1,0 +1,62 @@
+"""Beckmann with its normals sampled: heavy rejection at grazing angles."""
+
+import math
+from typing import NamedTuple
+
+
+class Params(NamedTuple):
+    alpha: float = 0.3
+
+
+domain = {"alpha": (0.05, 0.6)}
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def normalize(v):
+    length = math.sqrt(dot(v, v))
+    return v[0] / length, v[1] / length, v[2] / length
+
+
+def reflect(v, n):
+    k = 2.0 * dot(v, n)
+    return k * n[0] - v[0], k * n[1] - v[1], k * n[2] - v[2]
+
+
+def half_vector(wo, wi):
+    return normalize((wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]))
+
+
+def distribution(h, alpha):
+    cos2 = h[2] * h[2]
+    tan2 = max(0.0, 1.0 - cos2) / cos2
+    return math.exp(-tan2 / (alpha * alpha)) / (math.pi * alpha * alpha * cos2 * cos2)
+
+
+def smith_lambda(w, alpha):
+    tan = math.sqrt(max(0.0, 1.0 - w[2] * w[2])) / w[2]
+    if tan <= 0.0:
+        return 0.0
+    a = 1.0 / (alpha * tan)
+    return 0.5 * (math.exp(-a * a) / (a * math.sqrt(math.pi)) - math.erfc(a))
+
+
+def f(wo, wi, p):
+    h = half_vector(wo, wi)
+    g = 1.0 / (1.0 + smith_lambda(wo, p.alpha) + smith_lambda(wi, p.alpha))
+    return distribution(h, p.alpha) * g / (4.0 * wo[2] * wi[2])
+
+
+def sample(wo, u, p):
+    tan2 = -p.alpha * p.alpha * math.log(1.0 - u[0])
+    cos = 1.0 / math.sqrt(1.0 + tan2)
+    sin = math.sqrt(max(0.0, 1.0 - cos * cos))
+    phi = 2.0 * math.pi * u[1]
+    return reflect(wo, (sin * math.cos(phi), sin * math.sin(phi), cos))
+
+
+def pdf(wo, wi, p):
+    h = half_vector(wo, wi)
+    return distribution(h, p.alpha) * h[2] / (4.0 * dot(wo, h))

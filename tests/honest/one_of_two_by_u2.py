@@ -1,0 +1,26 @@
+"""u[2] chooses between a uniform and a cosine-weighted direction."""
+
+import math
+from typing import NamedTuple
+
+
+class Params(NamedTuple):
+    albedo: float = 0.8
+
+
+domain = {"albedo": (0.0, 1.0)}
+
+
+def f(wo, wi, p):
+    return p.albedo / math.pi
+
+
+def sample(wo, u, p):
+    z = math.sqrt(1.0 - u[0]) if u[2] < 0.3 else 1.0 - u[0]
+    r = math.sqrt(max(0.0, 1.0 - z * z))
+    phi = 2.0 * math.pi * u[1]
+    return r * math.cos(phi), r * math.sin(phi), z
+
+
+def pdf(wo, wi, p):
+    return 0.3 * wi[2] / math.pi + 0.7 / (2.0 * math.pi)

@@ -1,0 +1,32 @@
+"""Reflects 0.1 % less than it declares.
+
+caught by: furnace
+"""
+
+import math
+from typing import NamedTuple
+
+
+class Params(NamedTuple):
+    albedo: float = 0.8
+
+
+domain = {"albedo": (0.0, 1.0)}
+
+
+def albedo(cos_theta_o, p):
+    return p.albedo
+
+
+def f(wo, wi, p):
+    return 0.999 * p.albedo / math.pi
+
+
+def sample(wo, u, p):
+    r = math.sqrt(u[0])
+    phi = 2.0 * math.pi * u[1]
+    return r * math.cos(phi), r * math.sin(phi), math.sqrt(1.0 - u[0])
+
+
+def pdf(wo, wi, p):
+    return wi[2] / math.pi

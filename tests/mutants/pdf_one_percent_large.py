@@ -1,0 +1,28 @@
+"""The pdf is 1 % too large everywhere.
+
+caught by: pdf
+"""
+
+import math
+from typing import NamedTuple
+
+
+class Params(NamedTuple):
+    albedo: float = 0.8
+
+
+domain = {"albedo": (0.0, 1.0)}
+
+
+def f(wo, wi, p):
+    return p.albedo / math.pi
+
+
+def sample(wo, u, p):
+    r = math.sqrt(u[0])
+    phi = 2.0 * math.pi * u[1]
+    return r * math.cos(phi), r * math.sin(phi), math.sqrt(1.0 - u[0])
+
+
+def pdf(wo, wi, p):
+    return 1.01 * wi[2] / math.pi

@@ -1,0 +1,29 @@
+"""The exponent of the warp is 2 % off.
+
+caught by: sampling
+"""
+
+import math
+from typing import NamedTuple
+
+
+class Params(NamedTuple):
+    albedo: float = 0.8
+
+
+domain = {"albedo": (0.0, 1.0)}
+
+
+def f(wo, wi, p):
+    return p.albedo / math.pi
+
+
+def sample(wo, u, p):
+    z = (1.0 - u[0]) ** 0.51
+    r = math.sqrt(max(0.0, 1.0 - z * z))
+    phi = 2.0 * math.pi * u[1]
+    return r * math.cos(phi), r * math.sin(phi), z
+
+
+def pdf(wo, wi, p):
+    return wi[2] / math.pi

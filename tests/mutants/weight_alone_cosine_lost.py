@@ -1,0 +1,25 @@
+"""Uniform sampling with the weight of cosine sampling; there is no pdf to compare with.
+
+caught by: furnace
+"""
+
+import math
+from typing import NamedTuple
+
+
+class Params(NamedTuple):
+    albedo: float = 0.8
+
+
+domain = {"albedo": (0.0, 1.0)}
+
+
+def f(wo, wi, p):
+    return p.albedo / math.pi
+
+
+def sample(wo, u, p):
+    z = 1.0 - u[0]
+    r = math.sqrt(1.0 - z * z)
+    phi = 2.0 * math.pi * u[1]
+    return r * math.cos(phi), r * math.sin(phi), z, 2.0 * p.albedo * wo[2]
