@@ -24,7 +24,11 @@ def plot(report: dict[str, Any], path: Path) -> None:
     import matplotlib
 
     matplotlib.use("Agg")
-    save(FIGURES[report["command"]](report), path)
+    try:
+        figure = FIGURES[report["command"]](report)
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        raise UserError(f"the report cannot be drawn: {type(error).__name__} {error}") from error
+    save(figure, path)
 
 
 def save(figure: Any, path: Path) -> None:
@@ -59,17 +63,25 @@ def albedo_figure(report: dict[str, Any]) -> Any:
         _error(bottom, one, COLOURS[k], MARKERS[k])
     top.axhline(1.0, color="0.4", linewidth=0.8, linestyle=(0, (1, 2)))
     top.set_ylabel("directional albedo A")
-    top.set_ylim(bottom=0.0)
+    top.set_ylim(0.0, 1.08 * max(1.0, top.dataLim.y1))
     top.set_title(_title(report, len(shown)), fontsize=10)
-    top.legend(fontsize=8, loc="best")
     bottom.set_yscale("log")
     bottom.set_ylabel("|A - reference|")
     bottom.set_xlabel("angle of the viewer theta_o (degrees)")
     bottom.set_xlim(-2.0, 92.0)
-    bottom.legend(fontsize=8, loc="best")
     for axes in (top, bottom):
         axes.grid(alpha=0.25)
+    _explain(figure, (top, bottom))
     return figure
+
+
+def _explain(figure: Any, panels: Any) -> None:
+    """One legend below the panels, where it hides nothing; every line style named once."""
+    named: dict[str, Any] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            named.setdefault(label, handle)
+    figure.legend(named.values(), named.keys(), loc="outside lower center", ncols=3, fontsize=8)
 
 
 def series(report: dict[str, Any]) -> list[dict[str, Any]]:
@@ -113,7 +125,7 @@ def _albedo(axes: Any, one: dict[str, Any], colour: str, marker: str) -> None:
                   label=f"{one['label'] or 'estimate'} (+- 3 stderr)")  # fmt: skip
     curve = one["curve"] or [(f["where"]["theta_o_deg"], f["expected"]) for f in rows if "expected" in f]
     if curve:
-        axes.plot(*zip(*curve), color=colour, linewidth=1.0, label="reference")
+        axes.plot(*zip(*curve), color=colour, linewidth=1.0, label="line above: reference")
 
 
 def _error(axes: Any, one: dict[str, Any], colour: str, marker: str) -> None:
@@ -121,10 +133,11 @@ def _error(axes: Any, one: dict[str, Any], colour: str, marker: str) -> None:
     theta = [f["where"]["theta_o_deg"] for f in rows]
     floor = 1e-17  # an exact estimate has no place on a log axis
     errors = [max(abs(f["value"] - f["expected"]), floor) for f in rows]
-    axes.plot(theta, errors, marker, color=colour, markersize=4, label="error")
-    axes.plot(theta, [max(f["stderr"], floor) for f in rows], color=colour, linewidth=1.0, label="stderr")
+    axes.plot(theta, errors, marker, color=colour, markersize=4, label="marker below: error")
+    axes.plot(theta, [max(f["stderr"], floor) for f in rows], color=colour, linewidth=1.0,
+              label="line below: stderr")  # fmt: skip
     axes.plot(theta, [f["tolerance"] for f in rows], color=colour, linewidth=0.8,
-              linestyle=(0, (4, 3)), label="tolerance")  # fmt: skip
+              linestyle=(0, (4, 3)), label="dashed: tolerance")  # fmt: skip
 
 
 def stress_figure(report: dict[str, Any]) -> Any:
