@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from montecarlo_brdf import bits, special
+from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.stability.arithmetic import Arithmetic
 from montecarlo_brdf.stability.batch import Batch, Whole
 
@@ -54,6 +55,38 @@ def twins(arithmetic: Arithmetic) -> dict[Any, Any]:
     return {**found, **own}
 
 
+def chosen(order: str) -> Callable[..., Any]:
+    """`max` or `min` of numbers point by point, as Python has it, without dividing the points."""
+    plain = max if order == "gt" else min
+
+    def function(*operands: Any, **options: Any) -> Any:
+        batch = next((o for o in operands if isinstance(o, Batch)), None)
+        if batch is None:
+            return plain(*operands, **options)
+        best = batch.apply("positive", operands[0])
+        for other in operands[1:]:
+            other = batch.apply("positive", other)
+            better = getattr(other, f"__{order}__")(best).values
+            best = Batch(np.where(better, other.values, best.values), batch.arithmetic)
+        return best
+
+    return function
+
+
+class Rebound(Specialiser):
+    """Binds everything a function reaches to one type, and `max` and `min` too."""
+
+    def __init__(self, arithmetic: Arithmetic) -> None:
+        super().__init__(lambda function: function, twins(arithmetic))
+
+    def clone(self, function: types.FunctionType, bound: Mapping[str, Any]) -> types.FunctionType:
+        """`function` with every global name it uses replaced by its counterpart."""
+        made = super().clone(function, bound)
+        made.__globals__.setdefault("max", chosen("gt"))
+        made.__globals__.setdefault("min", chosen("lt"))
+        return made
+
+
 def _words(arithmetic: Arithmetic) -> dict[Any, Any]:
     """Doubles as words and back, on arrays."""
 
@@ -69,7 +102,13 @@ def _words(arithmetic: Arithmetic) -> dict[Any, Any]:
 
 def _stand_ins(m: Any) -> dict[Any, Any]:
     """What stands for each polynomial of `special`."""
+
+    def cosine_power(d: Any, n: Any) -> Any:
+        y = m.exp(n * m.log1p(-d))
+        return 0.0 if d >= 1.0 else y
+
     by_name: Mapping[str, Callable[..., Any]] = {
+        "cosine_power": cosine_power,
         "exp": m.exp,
         "exp2": m.exp2,
         "expm1": m.expm1,

@@ -9,7 +9,6 @@ import numpy as np
 from montecarlo_brdf.stability.arithmetic import Arithmetic
 from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 
-
 #: Darker than this, per steradian, nobody sees the error (f0 = 0 leaves (1 - h.v)^5 = 1e-40).
 BLACK = 1e-20
 

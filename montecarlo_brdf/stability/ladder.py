@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.stability.arithmetic import Arithmetic
 from montecarlo_brdf.stability.batch import Batch, Mixed, Widened, over_points
-from montecarlo_brdf.stability.elementary import twins
+from montecarlo_brdf.stability.elementary import Rebound
 
 
 class Rung:
@@ -26,7 +25,7 @@ class Rung:
     def __init__(self, model: Model, arithmetic: Arithmetic) -> None:
         self.model = model
         self.arithmetic = arithmetic
-        self._special = Specialiser(lambda function: function, twins(arithmetic))
+        self._special = Rebound(arithmetic)
         self._rebound: dict[str, Callable[..., Any]] = {}
 
     def f(self, wo: Any, wi: Any, p: Any) -> Any:
@@ -133,6 +132,5 @@ def unit(w: Any, arithmetic: Arithmetic) -> Any:
 
 def in_precision(function: Callable[..., Any], arithmetic: Arithmetic, *columns: Any) -> Any:
     """Any function of numbers, applied to columns of numbers in a precision."""
-    special = Specialiser(lambda one: one, twins(arithmetic))
     columns = tuple(arithmetic.array(c) for c in columns)
-    return over_points(columns, special.clone(function, {}), arithmetic)[0]
+    return over_points(columns, Rebound(arithmetic).clone(function, {}), arithmetic)[0]
