@@ -1,4 +1,5 @@
 """brdf-check radiance"""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -18,23 +19,47 @@ Examples:
 """
 
 
-@click.command("radiance", epilog=EPILOG, short_help="Reflected radiance of a scene, with verdicts.")
+@click.command(
+    "radiance", epilog=EPILOG, short_help="Reflected radiance of a scene, with verdicts."
+)
 @click.argument("scene", required=False, type=click.Path(path_type=Path))
-@click.option("--model", "spec", metavar="MODEL", shell_complete=_options.model_names,
-              help="Without a scene file: the model of the surface. [--model ggx]")  # fmt: skip
-@click.option("-p", "--param", "assignments", multiple=True, metavar="NAME=VALUE",
-              help="A parameter of the surface's model; a/b/c makes a colour. [-p alpha=0.1]")  # fmt: skip
-@click.option("--environment", metavar="SKY",
-              help="Without a scene file: constant:L, cosine:EXPONENT, cap:HALF_ANGLE, gradient, "
-              "quadratic, linear:A:B, each with :TILT in degrees, or image:FILE. [--environment cosine:8]")  # fmt: skip
-@click.option("--theta-o", "theta_o", metavar="DEGREES",
-              help="Polar angles of the viewer in [0, 90) instead of the scene's. [--theta-o 0:85:18]")  # fmt: skip
+@click.option(
+    "--model",
+    "spec",
+    metavar="MODEL",
+    shell_complete=_options.model_names,
+    help="Without a scene file: the model of the surface. [--model ggx]",
+)
+@click.option(
+    "-p",
+    "--param",
+    "assignments",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="A parameter of the surface's model; a/b/c makes a colour. [-p alpha=0.1]",
+)
+@click.option(
+    "--environment",
+    metavar="SKY",
+    help="Without a scene file: constant:L, cosine:EXPONENT, cap:HALF_ANGLE, gradient, "
+    "quadratic, linear:A:B, each with :TILT in degrees, or image:FILE. [--environment cosine:8]",
+)
+@click.option(
+    "--theta-o",
+    "theta_o",
+    metavar="DEGREES",
+    help="Polar angles of the viewer in [0, 90) instead of the scene's. [--theta-o 0:85:18]",
+)
 @click.option("--explain", is_flag=True, help="Print what is evaluated, what is skipped, and why.")
 @click.option("--no-skip", is_flag=True, help="Compute all of it the long way.")
 @_options.sampling_options
 @_options.output_options
-@click.option("--plot", type=click.Path(path_type=Path), metavar="FILE",
-              help="L_o against angle with error bars and truth, as PNG, SVG or PDF. [--plot r.png]")  # fmt: skip
+@click.option(
+    "--plot",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="L_o against angle with error bars and truth, as PNG, SVG or PDF. [--plot r.png]",
+)
 def command(**options: Any) -> int:
     """What radiance does a surface reflect towards the viewer, and is that what theory says?
 
@@ -66,7 +91,9 @@ def command(**options: Any) -> int:
         _explain(report.settings["plan"])
     for finding in report.results[0].findings:
         if finding.quantity.startswith("sum of weights") and finding.verdict == "fail":
-            click.echo(f"Warning: the weights of the lobes add up to {finding.value:g} > 1", err=True)
+            click.echo(
+                f"Warning: the weights of the lobes add up to {finding.value:g} > 1", err=True
+            )
     return _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
     )
@@ -91,7 +118,7 @@ def scene_from(options: dict[str, Any]) -> Any:
         sets = parameter_sets(model, options["assignments"])
         if len(sets) != 1:
             raise UserError(f"radiance takes one value per parameter, not {len(sets)} sets")
-        made = scene_of(model, sets[0], sky)
+        made = scene_of(model, sets[0], str(sky))
     if options["theta_o"]:
         made = with_views(made, numbers(options["theta_o"], "theta-o"))
     return made

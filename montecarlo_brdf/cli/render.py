@@ -1,7 +1,7 @@
 """brdf-check render"""
+
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +11,6 @@ from montecarlo_brdf.cli import _options
 from montecarlo_brdf.cli._values import Whole
 from montecarlo_brdf.errors import UserError
 
-FURNACE = 0.5  # radiance of the furnace: a lossless sphere disappears in its grey
-MOST_SPHERES = 12
 EPILOG = """\b
 Examples:
   brdf-check render examples/cook_torrance.toml -o sphere.png
@@ -21,25 +19,75 @@ Examples:
 """
 
 
-@click.command("render", epilog=EPILOG, short_help="A sphere under a scene's light; the furnace picture.")
+@click.command(
+    "render", epilog=EPILOG, short_help="A sphere under a scene's light; the furnace picture."
+)
 @click.argument("scene", required=False, type=click.Path(path_type=Path))
-@click.option("-o", "--output", "outputs", type=click.Path(path_type=Path), multiple=True, required=True,
-              metavar="FILE", help="A .png picture; .npy or .exr for linear values. [-o sphere.png]")  # fmt: skip
-@click.option("--model", "spec", metavar="MODEL", shell_complete=_options.model_names,
-              help="Without a scene file: the model of the surface. [--model ggx]")  # fmt: skip
-@click.option("-p", "--param", "assignments", multiple=True, metavar="NAME=VALUE",
-              help="A parameter; lists and ranges make a row of spheres. [-p alpha=0.1:1:5]")  # fmt: skip
-@click.option("--environment", metavar="SKY",
-              help="Without a scene file: the sky, as for radiance. [--environment cap:20:45]")  # fmt: skip
-@click.option("--furnace", is_flag=True,
-              help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.")  # fmt: skip
-@click.option("--size", type=Whole(), default="512", show_default=True, help="Pixels across. [--size 256]")
-@click.option("--samples", type=Whole(), default="256", show_default=True,
-              help="Samples per pixel where pixels are sampled. [--samples 1024]")  # fmt: skip
-@click.option("--camera", default="0", show_default=True, metavar="TILT[:AZIMUTH]",
-              help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]")  # fmt: skip
-@click.option("--seed", default="0", show_default=True, metavar="NUMBER", help="A number, or random. [--seed 7]")
-@click.option("--threads", type=Whole(), default=None, help="Threads; results do not depend on it. [--threads 1]")
+@click.option(
+    "-o",
+    "--output",
+    "outputs",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    required=True,
+    metavar="FILE",
+    help="A .png picture; .npy or .exr for linear values. [-o sphere.png]",
+)
+@click.option(
+    "--model",
+    "spec",
+    metavar="MODEL",
+    shell_complete=_options.model_names,
+    help="Without a scene file: the model of the surface. [--model ggx]",
+)
+@click.option(
+    "-p",
+    "--param",
+    "assignments",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="A parameter; lists and ranges make a row of spheres. [-p alpha=0.1:1:5]",
+)
+@click.option(
+    "--environment",
+    metavar="SKY",
+    help="Without a scene file: the sky, as for radiance. [--environment cap:20:45]",
+)
+@click.option(
+    "--furnace",
+    is_flag=True,
+    help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.",
+)
+@click.option(
+    "--size", type=Whole(), default="512", show_default=True, help="Pixels across. [--size 256]"
+)
+@click.option(
+    "--samples",
+    type=Whole(),
+    default="256",
+    show_default=True,
+    help="Samples per pixel where pixels are sampled. [--samples 1024]",
+)
+@click.option(
+    "--camera",
+    default="0",
+    show_default=True,
+    metavar="TILT[:AZIMUTH]",
+    help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]",
+)
+@click.option(
+    "--seed",
+    default="0",
+    show_default=True,
+    metavar="NUMBER",
+    help="A number, or random. [--seed 7]",
+)
+@click.option(
+    "--threads",
+    type=Whole(),
+    default=None,
+    help="Threads; results do not depend on it. [--threads 1]",
+)
 def command(**options: Any) -> int:
     """Shade a sphere per pixel from the estimators, and say how exact the picture is.
 
@@ -47,6 +95,7 @@ def command(**options: Any) -> int:
     picture is no verdict: see `brdf-check furnace` and `brdf-check radiance`.
     """
     from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._spheres import FURNACE, scenes_of
     from montecarlo_brdf.report import spheres
     from montecarlo_brdf.scene.render import render
     from montecarlo_brdf.vectors import from_degrees
@@ -57,9 +106,11 @@ def command(**options: Any) -> int:
         spheres.check_kind(path)
     for name, low, high in (("size", 8, 4096), ("samples", 1, 1 << 20)):
         if not low <= options[name] <= high:
-            raise UserError(f"{name} must be a whole number from {low} to {high}, not {options[name]}")
+            raise UserError(
+                f"{name} must be a whole number from {low} to {high}, not {options[name]}"
+            )
     camera = from_degrees(*_camera(options["camera"]))
-    cases = _scenes(options)
+    cases = scenes_of(options)
     made = []
     with progress("render") as update:
         for k, (label, scene) in enumerate(cases):
@@ -84,6 +135,8 @@ def command(**options: Any) -> int:
 def _said(label: str, sphere: Any, furnace: bool) -> str:
     import numpy as np
 
+    from montecarlo_brdf.cli._spheres import FURNACE
+
     shown = sphere.values[sphere.inside]
     text = f"{label}: L_o from {shown.min():.6g} to {shown.max():.6g}, {sphere.how}"
     text += f", error up to {sphere.error:.1e}"
@@ -100,59 +153,3 @@ def _camera(text: str) -> tuple[float, ...]:
     if len(parts) > 2 or not 0.0 <= parts[0] <= 180.0:
         raise UserError(f"camera is TILT[:AZIMUTH] with a tilt in [0, 180] degrees, not {text!r}")
     return tuple(parts)
-
-
-def _scenes(options: dict[str, Any]) -> list[tuple[str, Any]]:
-    """(label, scene) of every parameter set."""
-    from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._values import parameter_sets
-    from montecarlo_brdf.scene.make import scene_of
-
-    path, spec, sky = options["scene"], options["spec"], options["environment"]
-    if path is not None:
-        if spec or sky:
-            raise UserError("give a scene file, or --model and --environment, not both")
-        return _from_file(path, options["assignments"])
-    if not spec or not (sky or options["furnace"]):
-        raise UserError("give a scene file, or --model with --environment or --furnace")
-    model = loading.load(spec)
-    sets = parameter_sets(model, options["assignments"])
-    _check_count(len(sets))
-    labels = [_label(spec, options["assignments"], p) for p in sets]
-    scenes = [scene_of(model, p, sky or f"constant:{FURNACE}") for p in sets]
-    return list(zip(labels, scenes, strict=True))
-
-
-def _label(spec: str, assignments: Sequence[str], p: Any) -> str:
-    """The model and the parameters that were given."""
-    names = [a.partition("=")[0].strip().replace(".", "_") for a in assignments]
-    rows = [f"{n} = {_shown(getattr(p, n))}" for n in names if hasattr(p, n)]
-    return f"{spec}\n{', '.join(rows)}" if rows else spec
-
-
-def _shown(value: Any) -> str:
-    return "/".join(f"{v:.3g}" for v in value) if isinstance(value, tuple) else f"{value:.3g}"
-
-
-def _from_file(path: Path, assignments: Sequence[str]) -> list[tuple[str, Any]]:
-    """The scene once per combination of -p values, which replace those of its surface."""
-    import itertools
-
-    from montecarlo_brdf.cli._values import _parameter
-    from montecarlo_brdf.scene.read import read_scene
-
-    axes = []
-    for assignment in assignments:
-        name, equals, text = assignment.partition("=")
-        if not equals or not text:
-            raise UserError(f"-p takes name=value, not {assignment!r}")
-        axes.append([(name.strip(), v) for part in text.split(",") for v in _parameter(name, part.strip())])
-    rows = list(itertools.product(*axes))
-    _check_count(len(rows))
-    made = [(read_scene(path, **dict(row)), row) for row in rows]
-    return [("\n".join([s.name, *(f"{n} = {v}" for n, v in row)]), s) for s, row in made]
-
-
-def _check_count(count: int) -> None:
-    if count > MOST_SPHERES:
-        raise UserError(f"{count} spheres are more than the {MOST_SPHERES} that fit a picture")

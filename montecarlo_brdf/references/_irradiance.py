@@ -27,7 +27,7 @@ def quadratic(cos_beta: float) -> float:
 
 
 def cosine(m: float, cos_beta: float) -> float:
-    """L = max(0, w.u)^m, the double-axis moment; beyond 90 degrees J(pi - beta) - 2 pi cos/(m+2)."""
+    """L = max(0, w.u)^m: the double-axis moment; minus 2 pi cos/(m+2) beyond 90 degrees."""
     return 2.0 * math.pi / (m + 2.0) * (double_axis(abs(cos_beta), m) + min(0.0, cos_beta))
 
 

@@ -1,4 +1,5 @@
 """Pictures of radiance reports: L_o against angle with its error bars and what it must be."""
+
 from __future__ import annotations
 
 import io
@@ -43,7 +44,9 @@ def radiance_figure(report: dict[str, Any]) -> Any:
     for k, (label, rows) in enumerate(shown[:MOST_SERIES]):
         _draw(top, bottom, rows, label, "#0072B2" if single else CHANNELS[k])
     more = f" ({MOST_SERIES} of {len(shown)} series)" if len(shown) > MOST_SERIES else ""
-    top.set_title(f"{report['results'][0]['model']}{more}, verdict {report['verdict']}", fontsize=10)
+    top.set_title(
+        f"{report['results'][0]['model']}{more}, verdict {report['verdict']}", fontsize=10
+    )
     top.set_ylabel("reflected radiance L_o")
     top.set_ylim(bottom=0.0)
     bottom.set_yscale("log")
@@ -69,11 +72,24 @@ def series(findings: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
 def _draw(top: Any, bottom: Any, rows: list[dict[str, Any]], label: str, colour: str) -> None:
     theta = [f["where"]["theta_o_deg"] for f in rows]
     bars = [3.0 * (f.get("stderr") or 0.0) for f in rows]
-    top.errorbar(theta, [f["value"] for f in rows], bars, fmt="o", markersize=4, capsize=2,
-                 color=colour, label=f"{label} (+- 3 stderr)")  # fmt: skip
+    top.errorbar(
+        theta,
+        [f["value"] for f in rows],
+        bars,
+        fmt="o",
+        markersize=4,
+        capsize=2,
+        color=colour,
+        label=f"{label} (+- 3 stderr)",
+    )
     top.plot(theta, [f["expected"] for f in rows], color=colour, linewidth=1.0)
     floor = 1e-17  # an exact value has no place on a log axis
     errors = [max(abs(f["value"] - f["expected"]), floor) for f in rows]
     bottom.plot(theta, errors, "o", markersize=4, color=colour, label=f"{label}: error")
-    bottom.plot(theta, [max(f.get("stderr") or 0.0, floor) for f in rows], color=colour,
-                linewidth=1.0, label="stderr")  # fmt: skip
+    bottom.plot(
+        theta,
+        [max(f.get("stderr") or 0.0, floor) for f in rows],
+        color=colour,
+        linewidth=1.0,
+        label="stderr",
+    )

@@ -1,4 +1,5 @@
 """Pictures of spheres: tone-mapped PNG, furnace panels with signed differences, raw numbers."""
+
 from __future__ import annotations
 
 import io
@@ -64,7 +65,9 @@ def _png(spheres: Sequence[Any], labels: Sequence[str], furnace: float | None) -
     if furnace is None and len(spheres) == 1:
         from PIL import Image
 
-        Image.fromarray((255.0 * encoded(spheres[0].values) + 0.5).astype("uint8")).save(content, "png")
+        Image.fromarray((255.0 * encoded(spheres[0].values) + 0.5).astype("uint8")).save(
+            content, "png"
+        )
     else:
         import matplotlib
 

@@ -3,6 +3,7 @@
 Per view and channel: L_o equals its reference; the surface's albedo A (its radiance under a
 constant light 1) is at most 1; over a band, the albedo weighted with the illuminant.
 """
+
 from __future__ import annotations
 
 import functools
@@ -14,8 +15,8 @@ from typing import Any
 from montecarlo_brdf.checks.claim import (
     AGREEMENT_TOLERANCE,
     BOUND_TOLERANCE,
-    Measurement,
     MeanClaim,
+    Measurement,
     Reference,
 )
 from montecarlo_brdf.integration.estimators import Plan
@@ -104,7 +105,9 @@ def _channel(measure: Any, k: int, sampling: Plan) -> list[Measurement]:
     return [measure(sampling)[k]]
 
 
-def energy_claims(scene: Scene, sampling_plan: ScenePlan, tolerance: float | None) -> Iterator[MeanClaim]:
+def energy_claims(
+    scene: Scene, sampling_plan: ScenePlan, tolerance: float | None
+) -> Iterator[MeanClaim]:
     """A <= 1 at every polar angle of the view."""
     thetas = dict.fromkeys(theta for theta, _ in sampling_plan.views)
     for theta in thetas:
@@ -141,7 +144,9 @@ def band_claims(scene: Scene, furnace: ScenePlan, tolerance: float | None) -> It
     for theta in dict.fromkeys(theta for theta, _ in furnace.views):
         view = (theta, scene.view.phi_o_deg[0])
         measure = _remembered(furnace, from_degrees(*furnace.views[view]))
-        rows = [truth.reference(furnace.scene, from_degrees(*view), k) for k in range(scene.channels)]
+        rows = [
+            truth.reference(furnace.scene, from_degrees(*view), k) for k in range(scene.channels)
+        ]
         value = math.fsum(s * r.value for s, r in zip(shares, rows, strict=True))
         error = math.fsum(s * r.error for s, r in zip(shares, rows, strict=True))
         relative = AGREEMENT_TOLERANCE if tolerance is None else tolerance

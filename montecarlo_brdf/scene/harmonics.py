@@ -4,6 +4,7 @@ Order l^2 + l + m; orthonormal over the sphere, without the Condon-Shortley phas
 Source: Ramamoorthi & Hanrahan 2001, "An efficient representation for irradiance environment maps",
 eq. 3; Sloan 2008, "Stupid spherical harmonics tricks", appendix A2.
 """
+
 from __future__ import annotations
 
 import math

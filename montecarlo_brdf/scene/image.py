@@ -3,6 +3,7 @@
 The image is a panorama: its top row is the zenith (the surface's normal), its left edge azimuth
 -180 degrees, its middle azimuth 0.
 """
+
 from __future__ import annotations
 
 import hashlib
@@ -51,7 +52,9 @@ def _checked(path: Path, values: Any) -> Any:
 
     values = values[:, :, None] if values.ndim == 2 else values
     if values.ndim != 3 or 0 in values.shape:
-        raise UserError(f"image {path} must have rows, columns and channels, not shape {values.shape}")
+        raise UserError(
+            f"image {path} must have rows, columns and channels, not shape {values.shape}"
+        )
     values = values[:, :, :1] if values.shape[2] < 3 else values[:, :, :3]  # grey, without alpha
     if not np.isfinite(values).all():
         raise UserError(f"image {path} contains NaN or infinity")
@@ -62,10 +65,16 @@ def _checked(path: Path, values: Any) -> Any:
 
 def check_size(path: Path, width: int, height: int) -> None:
     """Refuse what would not fit before it is read."""
-    available = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 1 << 33
+    available = (
+        os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+        if hasattr(os, "sysconf")
+        else 1 << 33
+    )
     need = width * height * 3 * 8 * 3  # doubles, their tables, one copy
     if width * height > MOST_TEXELS or need > available // 2:
-        raise UserError(f"image {path} is too large: {width} x {height} texels need {need / 1e9:.3g} GB")
+        raise UserError(
+            f"image {path} is too large: {width} x {height} texels need {need / 1e9:.3g} GB"
+        )
 
 
 def _png(path: Path) -> Any:
@@ -98,7 +107,9 @@ def _exr(path: Path) -> Any:
     try:
         import OpenEXR
     except ImportError as error:
-        raise UserError("reading .exr images needs OpenEXR: pip install 'montecarlo-brdf[scene]'") from error
+        raise UserError(
+            "reading .exr images needs OpenEXR: pip install 'montecarlo-brdf[scene]'"
+        ) from error
     with OpenEXR.File(str(path), header_only=True) as file:
         low, high = file.header()["dataWindow"]
         check_size(path, int(high[0] - low[0]) + 1, int(high[1] - low[1]) + 1)

@@ -3,6 +3,7 @@
 `F`, `SAMPLE`, `PDF` are bound to a model's functions and `SKY`, `SKY_SAMPLE`, `SKY_PDF` to a sky's;
 p = (model, sky) holds the numbers of both. A drawn direction below the horizon counts as 0.
 """
+
 from __future__ import annotations
 
 import math

@@ -3,6 +3,7 @@
 A directional light has an irradiance E on a plane perpendicular to its beam; a point light has an
 intensity I and E = I/(a + b d + c d^2), with (0, 0, 1) the physical inverse square.
 """
+
 from __future__ import annotations
 
 import math

@@ -3,6 +3,7 @@
 A point has a frame in the world (tangent, bitangent, normal) and a view direction in that frame.
 The integrands are those of `scene.integrands`; only the sky is turned into each point's frame.
 """
+
 from __future__ import annotations
 
 import functools

@@ -3,6 +3,7 @@
 Skipping is exact: what is left out is zero, equal to something that is evaluated, or a multiple of
 it. `skip=False` gives the long way, every lobe, channel, light and view for itself.
 """
+
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -10,12 +11,12 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.lights import ORIGIN, is_black
+from montecarlo_brdf.scene.methods import method_of, unscaled
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.skies import Sky
-from montecarlo_brdf.scene.surface import Lobe, ignores_directions
+from montecarlo_brdf.scene.surface import Lobe
 from montecarlo_brdf.vectors import Vec, from_degrees
 
-WIDE = 0.1  # share of a cap's solid angle that a lobe must fill to be sampled by the cap alone
 View = tuple[float, float]  # theta, phi in degrees
 
 
@@ -29,9 +30,9 @@ class Item(NamedTuple):
 
 
 class Share(NamedTuple):
-    """A channel's part of a work: factor times the estimate of set `index`."""
+    """A channel's part of a work: factor times the estimate of a set."""
 
-    index: int
+    place: int
     factor: float
 
 
@@ -105,7 +106,9 @@ def _shared(lobe: Lobe, sky: Sky, items: list[Item]) -> Work | None:
     """A lobe with its distinct parameter sets; equal and proportional channels share one."""
     sets: list[tuple[Any, Any]] = []
     shares: list[Share | None] = []
-    for weight, p, shape, scale in zip(lobe.weights, lobe.sets, sky.shapes, sky.scales, strict=True):
+    for weight, p, shape, scale in zip(
+        lobe.weights, lobe.sets, sky.shapes, sky.scales, strict=True
+    ):
         unit, factor = unscaled(lobe.model, p)
         factor *= weight * scale
         if factor == 0.0:
@@ -120,34 +123,6 @@ def _shared(lobe: Lobe, sky: Sky, items: list[Item]) -> Work | None:
     work = Work(lobe.name, lobe.model, tuple(sets), tuple(shares), method_of(lobe.model, *sets[0]))
     _explain(work, items)
     return work
-
-
-def unscaled(model: Model, p: Any) -> tuple[Any, float]:
-    """The parameter set with its scale taken out, and the scale: f is proportional to it."""
-    name = model.scales_with
-    if not name:
-        return p, 1.0
-    return p._replace(**{name: 1.0}), float(getattr(p, name))
-
-
-def method_of(model: Model, p: Any, shape: Any) -> str:
-    """The sampler for a lobe under a sky: the cheapest that sees both."""
-    if ignores_directions(model):
-        constant = isinstance(shape, skies.Constant)
-        return "one value" if constant else "sky" if skies.concentrated(shape) else "cosine"
-    if isinstance(shape, skies.Cap) and _covers(model, p, shape):
-        return "sky"  # no sample meets the cap's edge, where the mixture's integrand jumps
-    if skies.concentrated(shape):
-        return "mixed" if model.sample and model.pdf else "sky"
-    return "own" if model.sample else "cosine"
-
-
-def _covers(model: Model, p: Any, shape: skies.Cap) -> bool:
-    """Whether a lobe is wide enough for uniform samples of a cap to see all of it."""
-    if model.lobe is None:
-        return True
-    width = 2.0 * float(model.lobe[1](p))  # half vectors turn half as fast as directions
-    return width * width > WIDE * shape.depth
 
 
 def _explain(work: Work, items: list[Item]) -> None:
@@ -167,7 +142,9 @@ def _explain(work: Work, items: list[Item]) -> None:
     if share < 1.0 and work.method == "sky":
         reason = f"only the {share:.2g} of the hemisphere that the cap covers is sampled"
         items.append(Item("directions beyond the cap", False, reason))
-    items.append(Item(name, True, f"{work.method} sampling, {len(work.sets)} parameter sets", len(work.sets)))
+    items.append(
+        Item(name, True, f"{work.method} sampling, {len(work.sets)} parameter sets", len(work.sets))
+    )
 
 
 def _lights(scene: Scene, skip: bool, items: list[Item]) -> list[tuple[Vec, tuple[float, ...]]]:
@@ -200,14 +177,18 @@ def _views(scene: Scene, skip: bool, items: list[Item]) -> dict[View, View]:
     turned = surface.isotropic and not scene.lights
     turned = turned and (scene.sky is None or all(map(skies.symmetric, scene.sky.shapes)))
     if surface.constant:
-        found = {v: views[0] for v in views}
+        found = dict.fromkeys(views, views[0])
     elif turned:
         found = {(t, p): (t, views[0][1]) for t, p in views}
     else:
         found = {v: v for v in views}
     saved = len(views) - len(set(found.values()))
     if saved:
-        why = "the surface looks the same from everywhere" if surface.constant else "equal by symmetry"
+        why = (
+            "the surface looks the same from everywhere"
+            if surface.constant
+            else "equal by symmetry"
+        )
         items.append(Item(f"{saved} views", False, why))
     return found
 

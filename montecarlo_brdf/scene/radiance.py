@@ -1,4 +1,5 @@
 """Reflected radiance L_o of a planned scene: exact sums where they are possible, else estimates."""
+
 from __future__ import annotations
 
 import math
@@ -10,6 +11,7 @@ from montecarlo_brdf.integration import probe
 from montecarlo_brdf.integration.estimators import Plan, Subject, evaluate
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import integrands, skies
+from montecarlo_brdf.scene.methods import unscaled
 from montecarlo_brdf.scene.plan import ScenePlan, Work
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.surface import Lobe, ignores_directions
@@ -36,20 +38,15 @@ def measure(plan: ScenePlan, wo: Vec, sampling: Plan) -> list[Measurement]:
         if work.method == "one value":
             _add_values(work, wo, exact)
             continue
-        found = [_estimate(work, wo, sampling)] if plan.skip else _long_way(work, wo, sampling)
-        for estimates in found:
-            for c, share in enumerate(work.shares):
-                if share is not None:
-                    estimate, reason = estimates[share.index]
-                    parts[c].append((share.factor, estimate))
-                    unfit[c] = unfit[c] or (reason if share.factor else None)
+        estimates = _estimate(work, wo, sampling)
+        for c, share in enumerate(work.shares):
+            if share is not None:
+                estimate, reason = estimates[share.place]
+                parts[c].append((share.factor, estimate))
+                unfit[c] = unfit[c] or (reason if share.factor else None)
     names = " + ".join(dict.fromkeys(w.method for w in plan.works)) or "exact sum"
     rows = zip(exact, parts, unfit, strict=True)
     return [Measurement(names, combined(e, p), reason) for e, p, reason in rows]
-
-
-def _long_way(work: Work, wo: Vec, sampling: Plan) -> list[Any]:
-    return [_estimate(work, wo, sampling)]
 
 
 def combined(exact: float, parts: Sequence[tuple[float, Estimate]]) -> Estimate:
@@ -93,17 +90,11 @@ def _values(lobe: Lobe, plan: ScenePlan, wo: Vec) -> list[list[float]]:
     known: dict[Any, list[float]] = {}
     rows = []
     for p in lobe.sets:
-        unit, factor = _unscaled(lobe.model, p) if plan.skip else (p, 1.0)
+        unit, factor = unscaled(lobe.model, p) if plan.skip else (p, 1.0)
         if unit not in known or not plan.skip:
             known[unit] = [value_of(lobe.model, unit, wo, wi) for wi, _ in plan.lights]
         rows.append([factor * v for v in known[unit]])
     return rows
-
-
-def _unscaled(model: Model, p: Any) -> tuple[Any, float]:
-    from montecarlo_brdf.scene.plan import unscaled
-
-    return unscaled(model, p)
 
 
 def value_of(model: Model, p: Any, wo: Vec, wi: Vec) -> float:
@@ -114,7 +105,7 @@ def value_of(model: Model, p: Any, wo: Vec, wi: Vec) -> float:
 
 
 def ambient_colour(scene: Scene) -> list[float]:
-    """What ambient light is multiplied with: the albedo of the lobes that are the same everywhere."""
+    """What ambient light is multiplied with: the albedo of lobes that are the same everywhere."""
     total = [0.0] * scene.channels
     up = (0.0, 0.0, 1.0)
     for lobe in scene.surface.lobes:  # type: ignore[union-attr]
@@ -129,7 +120,7 @@ def _add_values(work: Work, wo: Vec, exact: list[float]) -> None:
     up = (0.0, 0.0, 1.0)
     values = [math.pi * value_of(work.model, p, up, up) for p, _ in work.sets]
     for c, share in enumerate(work.shares):
-        exact[c] += share.factor * values[share.index] if share else 0.0
+        exact[c] += share.factor * values[share.place] if share else 0.0
 
 
 def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str | None]]:

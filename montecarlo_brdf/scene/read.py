@@ -1,17 +1,17 @@
 """A scene from a TOML file, every value checked; docs/scenes.md lists all keys."""
+
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.scene.lights import Directional, Light, Point
+from montecarlo_brdf.scene.read_surface import read_surface
 from montecarlo_brdf.scene.scene import Band, Scene, View
 from montecarlo_brdf.scene.sky_tables import read_sky
 from montecarlo_brdf.scene.spectrum import illuminant_table, pairs
-from montecarlo_brdf.scene.standard import FORMS, Standard
+from montecarlo_brdf.scene.standard import Standard
 from montecarlo_brdf.scene.surface import Surface, lobes_of, spread
 from montecarlo_brdf.scene.toml import Table, parse
 
@@ -37,7 +37,7 @@ def _raw(top: Table, parameters: dict[str, Any]) -> dict[str, Any]:
     """Everything in the file, colours still as written."""
     return {
         "name": top.text_of("name", top.file.stem),
-        "surface": _surface(top.table("surface"), parameters),
+        "surface": read_surface(top.table("surface"), parameters),
         "sky": read_sky(top.table("environment")) if "environment" in top.data else None,
         "lights": [_light(t) for t in top.tables("lights")],
         "ambient": _single(top, "ambient"),
@@ -66,7 +66,9 @@ def _band(top: Table) -> Band | None:
         name = given if isinstance(given, str) else None
         light = illuminant_table(name, wavelengths[0], wavelengths[-1]) if name else pairs(given)
     except (UserError, TypeError) as error:
-        raise table.error(str(error), "wavelengths" if "wavelength" in str(error) else "illuminant") from None
+        raise table.error(
+            str(error), "wavelengths" if "wavelength" in str(error) else "illuminant"
+        ) from None
     for end in (wavelengths[0], wavelengths[-1]):
         if not light[0][0] <= end <= light[-1][0]:
             raise table.error(f"the illuminant has no value at {end:g} nm", "illuminant")
@@ -74,76 +76,22 @@ def _band(top: Table) -> Band | None:
     return Band(wavelengths, light)
 
 
-def _surface(table: Table, parameters: dict[str, Any]) -> Any:
-    if "equation" in table.data:
-        return _standard(table)
-    if "lobes" in table.data:
-        found = [(t.colour("weight", 1.0), *_model(t, {})) for t in table.tables("lobes")]
-    else:
-        found = [(table.colour("weight", 1.0), *_model(table, parameters))]
-    table.done()
-    return found
-
-
-def _model(table: Table, parameters: dict[str, Any]) -> tuple[Any, Any]:
-    """A model with the parameters that stand beside it."""
-    try:
-        model = loading.load(table.text_of("model"))
-    except UserError as error:
-        raise table.error(str(error), "model") from error
-    own = table.table("parameters", {})
-    picks = {c: source.text_of(c) for c in model.choices for source in (table, own) if c in source.data}
-    try:
-        model = model.variant(**picks) if picks else model
-        given = _given(model, table, own)
-        p = model.parameters(**{**given, **parameters})
-    except UserError as error:
-        if str(error).startswith(str(table.file)):
-            raise
-        key = next((k for k in (*picks, *table.data) if f"{k} of model" in str(error) or f"no {k} " in str(error)), "model")
-        raise table.error(str(error), key) from error
-    own.done()
-    if table.path[-1] != "surface":
-        table.done()
-    return model, p
-
-
-def _given(model: Any, table: Table, own: Table) -> dict[str, Any]:
-    """Parameters in the table itself or in its `parameters`."""
-    names = [model.labels.get(n, n) for n in model.Params._fields]
-    for source in (table, own):
-        source.know(*names, *model.choices)
-    found = ((n, source) for n in names for source in (table, own) if n in source.data)
-    return {n: source.colour(n, low=-math.inf) for n, source in found}
-
-
-def _standard(table: Table) -> Standard:
-    table.choice("equation", ["standard"])
-    ambient = table.colour("ambient") if "ambient" in table.data else None
-    table.take("ambient", None)
-    made: Any = Standard(
-        diffuse=table.colour("diffuse"),  # type: ignore[arg-type]
-        specular=table.colour("specular", 0.0),  # type: ignore[arg-type]
-        gloss=table.number("gloss", 32.0, 0.0, 1e7),
-        form=table.choice("form", FORMS, "phong"),
-        ambient=ambient,  # type: ignore[arg-type]
-        gloss_on_diffuse=table.flag("gloss_on_diffuse"),
-    )
-    table.done()
-    return made
-
-
 def _light(table: Table) -> tuple[Any, Colour]:
     kind = table.choice("kind", ["directional", "point"])
     if kind == "directional":
-        made: tuple[Any, Colour] = Directional(table.direction("direction"), ()), table.colour("irradiance")
+        made: tuple[Any, Colour] = (
+            Directional(table.direction("direction"), ()),
+            table.colour("irradiance"),
+        )
     else:
         position = table.numbers("position", 3)
         falloff = table.numbers("falloff", 3, (0.0, 0.0, 1.0))
         if not any(position):
             raise table.error("position is the shaded point itself", "position")
         if min(falloff) < 0.0 or not any(falloff):
-            raise table.error("falloff is [a, b, c] of 1/(a + b d + c d^2), at least 0, not all 0", "falloff")
+            raise table.error(
+                "falloff is [a, b, c] of 1/(a + b d + c d^2), at least 0, not all 0", "falloff"
+            )
         made = Point(position, (), falloff), table.colour("intensity")  # type: ignore[arg-type]
     table.done()
     return made
@@ -153,7 +101,9 @@ def _view(table: Table) -> View:
     theta = table.numbers("theta_o_deg", None, View().theta_o_deg)
     phi = table.numbers("phi_o_deg", None, View().phi_o_deg)
     if not all(0.0 <= t < 90.0 for t in theta):
-        raise table.error(f"theta_o_deg must be angles in [0, 90) degrees, not {list(theta)}", "theta_o_deg")
+        raise table.error(
+            f"theta_o_deg must be angles in [0, 90) degrees, not {list(theta)}", "theta_o_deg"
+        )
     table.done()
     return View(theta, phi)
 
@@ -169,7 +119,9 @@ def _assembled(top: Table, raw: dict[str, Any], band: Band | None) -> Scene:
     if isinstance(raw["surface"], Standard):
         s = raw["surface"]
         if raw["sky"]:
-            raise top.error("the standard lighting equation has lights and no [environment]", "environment")
+            raise top.error(
+                "the standard lighting equation has lights and no [environment]", "environment"
+            )
         surface: Any = s._replace(
             diffuse=row(s.diffuse),
             specular=row(s.specular),
@@ -208,5 +160,7 @@ def _channels(top: Table, raw: dict[str, Any], band: Band | None) -> int:
     widths |= {len(band.wavelengths)} if band else set()
     widths -= {1}
     if len(widths) > 1:
-        raise top.error(f"all colours of a scene need the same number of channels, not {sorted(widths)}")
+        raise top.error(
+            f"all colours of a scene need the same number of channels, not {sorted(widths)}"
+        )
     return widths.pop() if widths else 1

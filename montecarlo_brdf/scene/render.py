@@ -4,6 +4,7 @@ Orthographic camera; under a constant sky an isotropic surface depends on one an
 the radiance is tabulated over mu = n.v and interpolated (the error of that is stated). Otherwise
 every pixel is its own estimate. A sphere is convex: lights are hidden by the horizon only.
 """
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -12,6 +13,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.integration.pointwise import Pointwise
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.scene import skies
+from montecarlo_brdf.scene.camera import normals_of, places_of, towards
 from montecarlo_brdf.scene.claims import as_lobes
 from montecarlo_brdf.scene.pixels import means
 from montecarlo_brdf.scene.plan import Work, make
@@ -47,10 +49,10 @@ def render(
 
     scene = as_lobes(scene)
     plan = make(scene)
-    inside, normals = _normals(size, camera)
+    inside, normals = normals_of(size, camera)
     mu = np.clip(normals @ np.array(camera), 1e-6, 1.0)
     simple = not scene.lights and all(_one_angle(w) for w in plan.works)
-    places = None if simple else _places(normals, camera, mu, scene.surface.isotropic)  # type: ignore[union-attr]
+    places = None if simple else places_of(normals, camera, mu, scene.surface.isotropic)  # type: ignore[union-attr]
     total = np.tile(np.array(scene.emission), (len(normals), 1))
     total += np.array(_ambient(scene))
     error, how = 0.0, "exact sum of lights"
@@ -65,7 +67,7 @@ def render(
             how = f"{samples} samples per pixel"
         for c, part in enumerate(work.shares):
             if part is not None:
-                total[:, c] += part.factor * values[:, part.index]
+                total[:, c] += part.factor * values[:, part.place]
                 error = max(error, abs(part.factor) * float(np.max(wrong)))
     if scene.lights:
         total += _lit(scene, normals, places)
@@ -77,45 +79,6 @@ def render(
 
 def _part(progress: Callable[[float], None] | None, k: int, n: int) -> Any:
     return (lambda done: progress((k + done) / n)) if progress else None
-
-
-def _normals(size: int, camera: Vec) -> tuple[Any, Any]:
-    """Which pixels show the sphere, and its normals there in the world."""
-    import numpy as np
-
-    x = (np.arange(size) + 0.5) * (2.2 / size) - 1.1
-    x, y = np.meshgrid(x, -x)
-    inside = x * x + y * y < 1.0
-    x, y = x[inside], y[inside]
-    z = np.sqrt(1.0 - x * x - y * y)
-    right, up = _screen(camera)
-    return inside, x[:, None] * right + y[:, None] * up + z[:, None] * np.array(camera)
-
-
-def _screen(camera: Vec) -> tuple[Any, Any]:
-    """Right and up of the picture: up is the world's z, or y when looking along z."""
-    import numpy as np
-
-    pole = (0.0, 1.0, 0.0) if abs(camera[2]) > 0.999999 else (0.0, 0.0, 1.0)
-    right = np.cross(pole, camera)
-    right /= np.linalg.norm(right)
-    return right, np.cross(camera, right)
-
-
-def _places(normals: Any, camera: Vec, mu: Any, isotropic: bool) -> Any:
-    """View in the frame, tangent, bitangent, normal; anisotropic tangents run along latitudes."""
-    import numpy as np
-
-    view = np.array(camera)
-    along = view - mu[:, None] * normals if isotropic else np.cross((0.0, 0.0, 1.0), normals)
-    length = np.linalg.norm(along, axis=1, keepdims=True)
-    spare = np.cross(normals, (0.0, 1.0, 0.0)) + 1e-12
-    along = np.where(length > 1e-9, along / np.maximum(length, 1e-9), spare)
-    tangent = along - np.sum(along * normals, axis=1, keepdims=True) * normals
-    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
-    bitangent = np.cross(normals, tangent)
-    local = np.stack([tangent @ view, bitangent @ view, mu], axis=1)
-    return np.concatenate([local, tangent, bitangent, normals], axis=1)
 
 
 def _one_angle(work: Work) -> bool:
@@ -179,8 +142,10 @@ def _lit(scene: Scene, normals: Any, places: Any) -> Any:
 
     total = np.zeros((len(normals), scene.channels))
     for light in scene.lights:
-        towards, factor = _towards(light, normals)
-        local = np.stack([np.sum(towards * places[:, k : k + 3], axis=1) for k in (3, 6, 9)], axis=1)
+        to_light, factor = towards(light, normals)
+        local = np.stack(
+            [np.sum(to_light * places[:, k : k + 3], axis=1) for k in (3, 6, 9)], axis=1
+        )
         lit = local[:, 2] > 0.0
         for lobe in scene.surface.lobes:  # type: ignore[union-attr]
             for c, (weight, p) in enumerate(zip(lobe.weights, lobe.sets, strict=True)):
@@ -188,18 +153,6 @@ def _lit(scene: Scene, normals: Any, places: Any) -> Any:
                     f = Pointwise(lobe.model, p).f(places[lit, :3], local[lit])
                     total[lit, c] += weight * light.colour[c] * factor[lit] * f * local[lit, 2]
     return total
-
-
-def _towards(light: Any, normals: Any) -> tuple[Any, Any]:
-    """Unit vectors from every point to the light, and the factors on its colour."""
-    import numpy as np
-
-    if not hasattr(light, "position"):
-        return np.tile(np.array(light.direction), (len(normals), 1)), np.ones(len(normals))
-    to = np.array(light.position) - normals
-    d = np.linalg.norm(to, axis=1)
-    a, b, c = light.falloff
-    return to / d[:, None], 1.0 / (a + b * d + c * d * d)
 
 
 def _background(scene: Scene, camera: Vec) -> list[float]:

@@ -2,6 +2,7 @@
 
 Source: Ward 1991, "Real pixels", Graphics Gems II; the Radiance file formats reference.
 """
+
 from __future__ import annotations
 
 from pathlib import Path

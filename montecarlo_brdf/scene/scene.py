@@ -1,4 +1,5 @@
 """A scene: what the file says, as data with one entry per channel."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace

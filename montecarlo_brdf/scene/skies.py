@@ -4,6 +4,7 @@ Every sky has a shape of unit size, multiplied by one scale per channel; the sha
 as a NamedTuple through the kernel beside the model's. Axes are unit vectors in the surface's frame.
 Sources of the shapes: Nicodemus 1977 (cap), Ramamoorthi & Hanrahan 2001 (spherical harmonics).
 """
+
 from __future__ import annotations
 
 import math
@@ -11,61 +12,20 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.scene.harmonics import harmonics
+from montecarlo_brdf.scene.shapes import (
+    Cap,
+    Constant,
+    Cosine,
+    Harmonics,
+    Image,
+    Linear,
+    Quadratic,
+)
 from montecarlo_brdf.scene.texels import image, image_pdf, image_sample
 from montecarlo_brdf.special import cosine_power, expm1, log1p, turn
 from montecarlo_brdf.vectors import NORMAL, Vec, dot, tangent_frame
 
 TWO_PI = 2.0 * math.pi
-
-
-class Constant(NamedTuple):
-    """L = 1."""
-
-    one: float = 1.0
-
-
-class Linear(NamedTuple):
-    """L = a + b (w.u): a + b cos(theta), and every gradient between two poles."""
-
-    a: float = 1.0
-    b: float = 0.0
-    axis: Vec = NORMAL
-
-
-class Quadratic(NamedTuple):
-    """L = (w.u)^2."""
-
-    axis: Vec = NORMAL
-
-
-class Cosine(NamedTuple):
-    """L = max(0, w.u)^exponent."""
-
-    exponent: float = 1.0
-    axis: Vec = NORMAL
-
-
-class Cap(NamedTuple):
-    """L = 1 within an angle of the axis; depth = 1 - cos(angle)."""
-
-    depth: float = 2.0
-    axis: Vec = NORMAL
-
-
-class Harmonics(NamedTuple):
-    """L = sum of L_lm Y_lm, bands 0 to 4, 25 coefficients in the order l^2 + l + m."""
-
-    coefficients: tuple[float, ...] = (0.0,) * 25
-
-
-class Image(NamedTuple):
-    """Texels of a latitude-longitude image; `address` is that of their doubles in memory."""
-
-    address: float = 0.0
-    table: float = 0.0  # of the cumulative distribution for sampling
-    width: float = 0.0
-    height: float = 0.0
-    content: float = 0.0  # a hash: what the image shows, wherever it lies
 
 
 def away(w: Vec, axis: Vec) -> float:

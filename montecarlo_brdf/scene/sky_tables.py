@@ -1,11 +1,11 @@
 """[environment] tables, and the short form on the command line, as skies."""
+
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.image import Texels, read_image, texel_sky
 from montecarlo_brdf.scene.skies import Sky
@@ -81,14 +81,18 @@ def _two(table: Table, a: Any, b: Any, name: str) -> RawSky:
     for one, two in zip(a, b, strict=True):
         least = min(one + two * lowest, one + two * highest)
         if least < -1e-12:
-            raise table.error(f"negative radiance: {name} falls to {least:g} above the horizon", "b")
+            raise table.error(
+                f"negative radiance: {name} falls to {least:g} above the horizon", "b"
+            )
     shapes = tuple(skies.Linear(x, y, axis) for x, y in zip(a, b, strict=True))
     scales = tuple(1.0 if x or y else 0.0 for x, y in zip(a, b, strict=True))
     return RawSky(shapes, scales)
 
 
 def _quadratic(table: Table) -> RawSky:
-    return RawSky((skies.Quadratic(table.direction("axis", NORMAL)),), _row(table.colour("radiance", 1.0)))
+    return RawSky(
+        (skies.Quadratic(table.direction("axis", NORMAL)),), _row(table.colour("radiance", 1.0))
+    )
 
 
 def _cosine(table: Table) -> RawSky:
@@ -102,18 +106,26 @@ def cap_of(half_angle_deg: float, axis: Vec) -> skies.Cap:
 
 
 def _cap(table: Table) -> RawSky:
-    shape = cap_of(table.number("half_angle_deg", low=1e-6, high=180.0), table.direction("axis", NORMAL))
+    shape = cap_of(
+        table.number("half_angle_deg", low=1e-6, high=180.0), table.direction("axis", NORMAL)
+    )
     return RawSky((shape,), _row(table.colour("radiance", 1.0)))
 
 
 def _harmonics(table: Table) -> RawSky:
     raw = table.take("coefficients")
     nested = isinstance(raw, list) and bool(raw) and isinstance(raw[0], list)
-    rows = [Table(table.file, table.text, {"coefficients": r}, table.path).numbers("coefficients")
-            for r in raw] if nested else [table.numbers("coefficients")]  # fmt: skip
+    rows = (
+        [
+            Table(table.file, table.text, {"coefficients": r}, table.path).numbers("coefficients")
+            for r in raw
+        ]
+        if nested
+        else [table.numbers("coefficients")]
+    )
     if len(rows[0]) not in (1, 4, 9, 16, 25) or {len(r) for r in rows} != {len(rows[0])}:
         raise table.error(
-            "coefficients are 1, 4, 9, 16 or 25 numbers (bands 0 to 4), or one such list per channel",
+            "coefficients are 1, 4, 9, 16 or 25 numbers (bands 0 to 4), or such a list per channel",
             "coefficients",
         )
     shapes = tuple(skies.Harmonics(r + (0.0,) * (25 - len(r))) for r in rows)
@@ -133,12 +145,13 @@ def _image(table: Table) -> RawSky:
     scale = table.number("scale", 1.0, 0.0)
     file = table.file.parent / table.text_of("file")
     try:
-        return _raw_image(read_image(file), scale)
+        return raw_image(read_image(file), scale)
     except UserError as error:
         raise table.error(str(error), "file") from error
 
 
-def _raw_image(texels: Texels, scale: float) -> RawSky:
+def raw_image(texels: Texels, scale: float) -> RawSky:
+    """The sky of an image."""
     shapes, keep = texel_sky(texels)
     return RawSky(shapes, tuple(scale if any(row) else 0.0 for row in texels.sums), keep)
 
@@ -153,35 +166,3 @@ _READERS = {
     "harmonics": _harmonics,
     "image": _image,
 }
-
-SHORT = {
-    "constant": "constant[:RADIANCE]",
-    "gradient": "gradient[:TILT]",
-    "linear": "linear:A:B[:TILT]",
-    "quadratic": "quadratic[:TILT]",
-    "cosine": "cosine:EXPONENT[:TILT]",
-    "cap": "cap:HALF_ANGLE[:TILT]",
-    "image": "image:FILE",
-}
-
-
-def short_sky(text: str) -> RawSky:
-    """'cosine:8', 'cap:10:60': kind, its numbers, tilt of the axis in degrees."""
-    kind, *rest = text.split(":")
-    if kind not in SHORT:
-        raise UserError(unknown("environment", kind, SHORT))
-    if kind == "image":
-        return _raw_image(read_image(Path(":".join(rest))), 1.0)
-    names = {"constant": ["radiance"], "linear": ["a", "b"], "cosine": ["exponent"],
-             "cap": ["half_angle_deg"]}.get(kind, [])  # fmt: skip
-    most = len(names) + (kind != "constant")
-    try:
-        numbers = [float(v) for v in rest]
-    except ValueError:
-        numbers = []
-    if len(numbers) != len(rest) or len(rest) > most or (kind in ("linear", "cap", "cosine") and len(rest) < len(names)):
-        raise UserError(f"environment {text!r} is not of the form {SHORT[kind]}")
-    data: dict[str, Any] = {"kind": kind, **dict(zip(names, numbers, strict=False))}
-    if len(numbers) > len(names):
-        data["axis"] = {"tilt_deg": numbers[-1]}
-    return read_sky(Table(Path("--environment"), "", data, ()))

@@ -4,6 +4,7 @@ Reflectance is at one wavelength; albedo over a band is whole-band: int rho E dl
 radiosity over the irradiance of an illuminant E. Products of two linear pieces are integrated
 exactly (Simpson's rule on the union of both sets of wavelengths).
 """
+
 from __future__ import annotations
 
 import math
@@ -39,7 +40,9 @@ def at(spectrum: Pairs, wavelength: float) -> float:
     """The value at a wavelength between the first and the last."""
     first, last = spectrum[0][0], spectrum[-1][0]
     if not first <= wavelength <= last:
-        raise UserError(f"no value at {wavelength:g} nm: the spectrum runs from {first:g} to {last:g} nm")
+        raise UserError(
+            f"no value at {wavelength:g} nm: the spectrum runs from {first:g} to {last:g} nm"
+        )
     for (a, x), (b, y) in zip(spectrum, spectrum[1:], strict=False):
         if a <= wavelength <= b:
             t = (wavelength - a) / (b - a)

@@ -8,6 +8,7 @@ cosine of the light and is dropped when n.l <= 0. Printed in some texts with the
 the diffuse cosine too; `gloss_on_diffuse` is that variant. The ambient colour defaults to the
 diffuse colour. It never claimed to conserve energy; `reading` says what surface it is.
 """
+
 from __future__ import annotations
 
 import math
@@ -40,7 +41,9 @@ def shade(
     s: Standard, wo: Vec, lights: Sequence[tuple[Vec, Colour]], ambient: Colour, emission: Colour
 ) -> Colour:
     """The colour seen from wo under lights (direction, irradiance), n = (0, 0, 1)."""
-    total = [math.fsum((e, a * k)) for e, a, k in zip(emission, ambient, s.ambient_colour, strict=True)]
+    total = [
+        math.fsum((e, a * k)) for e, a, k in zip(emission, ambient, s.ambient_colour, strict=True)
+    ]
     for wi, light in lights:
         n_l = wi[2]
         if n_l <= 0.0:

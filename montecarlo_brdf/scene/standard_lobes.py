@@ -3,6 +3,7 @@
 What the equation adds per light, divided by the irradiance E mu_i: the diffuse colour without 1/pi
 and a highlight without the light's cosine. In this form its albedo and its energy can be asked for.
 """
+
 from __future__ import annotations
 
 import math
@@ -60,7 +61,9 @@ def surface_of(s: Standard) -> Surface:
 def _diffuse(s: Standard) -> Lobe:
     count = len(s.diffuse)
     if s.gloss_on_diffuse:
-        return Lobe("diffuse", s.diffuse, _model("diffuse", glossy_diffuse), (Gloss(s.gloss),) * count)
+        return Lobe(
+            "diffuse", s.diffuse, _model("diffuse", glossy_diffuse), (Gloss(s.gloss),) * count
+        )
     model = loading.load("lambert_unnormalised")
     return Lobe("diffuse", s.diffuse, model, (model.parameters(c=1.0),) * count)
 
@@ -71,7 +74,9 @@ def _specular(s: Standard) -> Lobe:
         model = loading.load("phong_original", norm="none")
         return Lobe("specular", s.specular, model, (model.parameters(ks=1.0, n=s.gloss),) * count)
     functions = {"sample": sample_blinn, "pdf": pdf_blinn, "lobe": ("half vector", _width)}
-    return Lobe("specular", s.specular, _model("blinn", blinn, **functions), (Gloss(s.gloss),) * count)
+    return Lobe(
+        "specular", s.specular, _model("blinn", blinn, **functions), (Gloss(s.gloss),) * count
+    )
 
 
 def mend(s: Standard) -> str:

@@ -3,6 +3,7 @@
 Lobes come from `model` and parameters, or from a list of lobes; a model that is a mixture is taken
 apart into its terms, so that each can be planned for itself.
 """
+
 from __future__ import annotations
 
 import dis
@@ -44,7 +45,9 @@ def lobes_of(model: Model, p: Any, weights: tuple[float, ...], count: int) -> li
         return [Lobe(model.name, weights, model, sets)]
     found = []
     for term in model.terms:
-        shares = [w * getattr(s, f"{term.prefix}_weight") for w, s in zip(weights, sets, strict=True)]
+        shares = [
+            w * getattr(s, f"{term.prefix}_weight") for w, s in zip(weights, sets, strict=True)
+        ]
         own = tuple(term.parameters_of(s) for s in sets)
         found.append(Lobe(term.prefix, tuple(shares), term.model, own))
     return found
@@ -60,6 +63,10 @@ def ignores_directions(model: Model) -> bool:
     function = getattr(model.f, "py_func", model.f)
     code = function.__code__
     directions = set(code.co_varnames[:2])
-    loads = {i.argval for i in dis.get_instructions(code) if i.opname.startswith(("LOAD_FAST", "LOAD_DEREF"))}
+    loads = {
+        i.argval
+        for i in dis.get_instructions(code)
+        if i.opname.startswith(("LOAD_FAST", "LOAD_DEREF"))
+    }
     used = {name for v in loads for name in (v if isinstance(v, tuple) else (v,))}
     return not (used & directions) and not code.co_cellvars

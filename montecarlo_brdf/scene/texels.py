@@ -4,6 +4,7 @@ The texels lie as doubles in rows from the zenith (z = 1) down, columns from azi
 degrees; a direction takes its texel's value, without interpolation, so that integrals are sums.
 `table[k]` is the share of radiance times solid angle in texels 0 to k.
 """
+
 from __future__ import annotations
 
 import math

@@ -1,20 +1,18 @@
 """Reading TOML with complaints that name the file, the line and what is allowed."""
+
 from __future__ import annotations
 
 import math
-import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.scene.lines import Path_, line_of
 from montecarlo_brdf.vectors import Vec, from_degrees
 
 REQUIRED: Any = object()
-HEADER = re.compile(r"^\s*(\[\[?)\s*([\w.\-\"' ]+?)\s*\]\]?\s*(#.*)?$")
-KEY = re.compile(r"^\s*([\w.\-\"']+)\s*=")
-Path_ = tuple[str | int, ...]
 
 
 def parse(path: Path) -> tuple[dict[str, Any], str]:
@@ -28,48 +26,6 @@ def parse(path: Path) -> tuple[dict[str, Any], str]:
         raise UserError(f"{path} is not a TOML file: it is not text") from error
     except tomllib.TOMLDecodeError as error:
         raise UserError(f"{path} is not a TOML file: {error}") from error
-
-
-def line_of(text: str, path: Path_) -> int | None:
-    """The line of a key or table: that of the longest part of `path` that stands in the text."""
-    best, at = 0, None
-    here: Path_ = ()
-    counts: dict[str, int] = {}
-    for number, line in enumerate(text.splitlines(), start=1):
-        if header := HEADER.match(line):
-            name = header.group(2)
-            here = tuple(_names(name))
-            if header.group(1) == "[[":
-                counts[name] = counts.get(name, -1) + 1
-                here = (*here, counts[name])
-            found = here
-        elif key := KEY.match(line):
-            found = (*here, *_names(key.group(1)))
-        else:
-            continue
-        shared = _shared(_flat(found, counts), path)
-        if shared > best and shared in (len(found), len(path)):
-            best, at = shared, number
-    return at
-
-
-def _names(dotted: str) -> list[str]:
-    return [part.strip(" \"'") for part in dotted.split(".")]
-
-
-def _flat(found: Path_, counts: Mapping[str, int]) -> Path_:
-    """A table below an array of tables belongs to its latest element."""
-    name = str(found[0])
-    if name in counts and (len(found) < 2 or not isinstance(found[1], int)):
-        return (name, counts[name], *found[1:])
-    return found
-
-
-def _shared(a: Path_, b: Path_) -> int:
-    n = 0
-    while n < min(len(a), len(b)) and a[n] == b[n]:
-        n += 1
-    return n
 
 
 class Table:
@@ -143,7 +99,9 @@ class Table:
             raise self.error(unknown(key, value, names), key)
         return str(value)
 
-    def numbers(self, key: str, count: int | None = None, default: Any = REQUIRED) -> tuple[float, ...]:
+    def numbers(
+        self, key: str, count: int | None = None, default: Any = REQUIRED
+    ) -> tuple[float, ...]:
         """A list of finite numbers; one number counts as a list of one."""
         value = self.take(key, default)
         row = value if isinstance(value, (list, tuple)) else [value]
@@ -168,7 +126,9 @@ class Table:
             raise self.error(f"{key} has no direction: all three numbers are 0", key)
         return x / size, y / size, z / size
 
-    def colour(self, key: str, default: Any = REQUIRED, low: float = 0.0) -> float | tuple[float, ...]:
+    def colour(
+        self, key: str, default: Any = REQUIRED, low: float = 0.0
+    ) -> float | tuple[float, ...]:
         """A number, one per channel, or (wavelength, value) pairs at the scene's wavelengths."""
         value = self.take(key, default)
         if isinstance(value, (list, tuple)) and value and isinstance(value[0], (list, tuple)):

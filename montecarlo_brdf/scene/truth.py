@@ -4,6 +4,7 @@ Nothing here is shared with the estimators: skies are integrated by `references`
 summed over values of f that were compiled (the estimates use the plain functions), and quadrature
 has its own charts. A quadrature takes f as it is, so it can refute samplers and sums, not f.
 """
+
 from __future__ import annotations
 
 import functools
@@ -16,10 +17,12 @@ from montecarlo_brdf.integration.pointwise import Pointwise
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.references import _irradiance, _lit
 from montecarlo_brdf.scene import skies
+from montecarlo_brdf.scene.lights import ORIGIN
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.surface import ignores_directions
 from montecarlo_brdf.vectors import Vec, mirrored
 
+UNKNOWN = 0.002  # width of a lobe that a model does not tell: looked for, never relied on
 ORDER = ("closed form", "declared", "independent", "quadrature of the same f")
 
 
@@ -54,8 +57,8 @@ def _sum(parts: list[Reference]) -> Reference:
 
 def direct(scene: Scene, model: Model, p: Any, wo: Vec, channel: int) -> Reference:
     """The exact sum over delta lights."""
-    lit = [light.at((0.0, 0.0, 0.0)) + (light.colour[channel],) for light in scene.lights]
-    lit = [(w, factor * e) for w, factor, e in lit if w[2] > 0.0 and e]
+    placed = [(*light.at(ORIGIN), light.colour[channel]) for light in scene.lights]
+    lit = [(w, factor * e) for w, factor, e in placed if w[2] > 0.0 and e]
     if not lit:
         return Reference(0.0, 0.0, "closed form", "no light")
     if ignores_directions(model):
@@ -80,7 +83,9 @@ def _under(sky: skies.Sky, model: Model, p: Any, wo: Vec, channel: int) -> Refer
     if ignores_directions(model):
         found = constant_f(model, p, irradiance(sky, channel))
         # the area of a cap at the horizon is a difference of terms as large as its sine
-        terms = math.sqrt(shape.depth * (2.0 - shape.depth)) if isinstance(shape, skies.Cap) else 0.0
+        terms = (
+            math.sqrt(shape.depth * (2.0 - shape.depth)) if isinstance(shape, skies.Cap) else 0.0
+        )
         error = found.error + constant_f(model, p, 1e-15 * terms).value
         return found._replace(error=error, source=f"E under {type(shape).__name__} times f")
     return _of_shape(model, p, shape, wo)
@@ -142,12 +147,13 @@ def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float
     def g(wi: Any) -> Any:
         return at.f(wo, wi) * sky(wi)
 
-    kind, width = (model.lobe[0], float(model.lobe[1](p))) if model.lobe else (None, 0.05)
+    kind, width = (model.lobe[0], float(model.lobe[1](p))) if model.lobe else (None, UNKNOWN)
     if isinstance(shape, skies.Image):
         return _texels(g, shape)
     if isinstance(shape, (skies.Cap, skies.Cosine)):
         whole = isinstance(shape, skies.Cosine)
-        reach = math.pi / 2 if whole else 2.0 * math.asin(math.sqrt(min(1.0, 0.5 * shape.depth)))
+        depth = 1.0 if isinstance(shape, skies.Cosine) else shape.depth
+        reach = 2.0 * math.asin(math.sqrt(min(1.0, 0.5 * depth)))
         if not (whole and shape.axis == (0.0, 0.0, 1.0)):
             region = _sky.around(shape.axis, reach, mirrored(wo), width)
             return _sky.adaptive(g, region)
@@ -155,6 +161,10 @@ def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float
         return _sky.half_vector(g, wo, width)
     if kind:
         return _sky.adaptive(g, _sky.around(mirrored(wo), math.pi, mirrored(wo), width))
+    if not model.built_in:  # may have a lobe that it does not tell of
+        from montecarlo_brdf.references import _adaptive
+
+        return _adaptive.quadrature(lambda wi: g(wi.T), wo)[:2]
     return _sky.adaptive(g, _sky.hemisphere(wo, width))
 
 
@@ -184,4 +194,4 @@ def _texel_values(shape: Any) -> Any:
 
     size = int(shape.width * shape.height)
     memory = (ctypes.c_double * size).from_address(int(shape.address))
-    return np.frombuffer(memory).reshape(int(shape.height), int(shape.width))
+    return np.ctypeslib.as_array(memory).reshape(int(shape.height), int(shape.width))

@@ -1,6 +1,8 @@
 """The reflected radiance of a scene: estimated, held against its truth, and its energy judged."""
+
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -77,14 +79,25 @@ def _claims(
         where = {"channel": k} if scene.channels > 1 else {}
         bound = Reference(1.0, 0.0, "bound", "lobes share the light that arrives")
         exact = Exact(total, hint=None if total <= 1.0 else "reduce a weight")
-        yield ExactClaim("sum of weights <= 1", where, "at most", bound, WEIGHT_ROUNDING,
-                         lambda exact=exact: exact, property="weights")  # fmt: skip
+        yield ExactClaim(
+            "sum of weights <= 1",
+            where,
+            "at most",
+            bound,
+            WEIGHT_ROUNDING,
+            functools.partial(_same, exact),
+            property="weights",
+        )
     yield from scene_claims.claims(scene, plan, tolerance)
     if energy or scene.band:
         furnace = scene_claims.plan_of(scene.under_constant_light(1.0), skip)
         if energy:
             yield from scene_claims.energy_claims(scene, furnace, tolerance)
         yield from scene_claims.band_claims(scene, furnace, tolerance)
+
+
+def _same(value: Exact) -> Exact:
+    return value
 
 
 def _count(scene: Scene, energy: bool) -> int:
@@ -98,7 +111,9 @@ def _known(scene: Scene, claim: Claim) -> str | None:
         return None
     if isinstance(scene.surface, Standard):
         return f"the standard lighting equation does not conserve energy: {mend(scene.surface)}"
-    reasons = [lobe.model.disclaims.get("energy") for lobe in scene.surface.lobes if any(lobe.weights)]
+    reasons = [
+        lobe.model.disclaims.get("energy") for lobe in scene.surface.lobes if any(lobe.weights)
+    ]
     return next((r for r in reasons if r), None)
 
 
@@ -109,5 +124,7 @@ def explained(plan: ScenePlan, sampling: Plan) -> list[dict[str, Any]]:
     for item in plan.items:
         saved = 0 if item.evaluated else item.estimates * views * sampling.samples
         decision = "evaluated" if item.evaluated else "skipped"
-        rows.append({"what": item.what, "decision": decision, "why": item.reason, "samples_saved": saved})
+        rows.append(
+            {"what": item.what, "decision": decision, "why": item.reason, "samples_saved": saved}
+        )
     return rows

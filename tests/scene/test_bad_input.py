@@ -27,22 +27,27 @@ WRONG = {
     SURFACE + '[environment]\nkind = "blue"': "line 4: no kind 'blue' (choose from constant,",
     SURFACE + SKY + "radiance = -1": "line 5: radiance must be at least 0, not -1",
     SURFACE + '[environment]\nkind = "linear"\na = 1\nb = -2': "negative radiance",
-    SURFACE + '[environment]\nkind = "harmonics"\ncoefficients = [0, 0, -1, 0]': "negative radiance",
+    SURFACE
+    + '[environment]\nkind = "harmonics"\ncoefficients = [0, 0, -1, 0]': "negative radiance",
     SURFACE + '[environment]\nkind = "harmonics"\ncoefficients = [1, 2]': "1, 4, 9, 16 or 25",
     SURFACE + '[environment]\nkind = "image"\nfile = "no.png"': "line 5: no image file",
     SURFACE + LIGHT + "direction = [0, 0, 0]\nirradiance = 1": "line 5: direction has no direction",
     SURFACE + LIGHT + "direction = [0, 1]\nirradiance = 1": "line 5: direction must be a list of 3",
     SURFACE + LIGHT + "direction = [0, 0, 1]": "line 3: [[lights]] 1 needs 'irradiance'",
-    SURFACE + '[[lights]]\nkind = "lamp"': "line 4: no kind 'lamp' (choose from directional, point)",
+    SURFACE
+    + '[[lights]]\nkind = "lamp"': "line 4: no kind 'lamp' (choose from directional, point)",
     SURFACE + "[view]\ntheta_o_deg = [90]": "line 4: theta_o_deg must be angles in [0, 90)",
     SURFACE + "albedo = [1, 1, 1]\n[emission]\nradiance = [1, 1]": "same number of channels",
     SURFACE + "albedo = [[400, 0.5]]": "line 3: albedo is a spectrum: the scene needs [spectrum]",
-    SPECTRUM + SURFACE + "albedo = [[500, 0.5], [400, 0.1]]": "line 5: albedo: the wavelengths of a",
+    SPECTRUM
+    + SURFACE
+    + "albedo = [[500, 0.5], [400, 0.1]]": "line 5: albedo: the wavelengths of a",
     SPECTRUM + SURFACE + "albedo = [[-500, 0.5]]": "wavelengths are positive numbers",
     SPECTRUM + SURFACE + "albedo = [[450, 0.5], [600, 1]]": "no value at 400 nm",
-    "[spectrum]\nwavelengths = [500, 400]\n" + SURFACE: "line 2: the wavelengths of a spectrum must",
+    "[spectrum]\nwavelengths = [500, 400]\n"
+    + SURFACE: "line 2: the wavelengths of a spectrum must",
     SPECTRUM + 'illuminant = "D99"\n' + SURFACE: "illuminant",
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("text", WRONG, ids=lambda t: " ".join(t.split())[-40:])
@@ -91,10 +96,16 @@ def _write(folder: Path, kind: str) -> str:
 
 @pytest.mark.parametrize(
     ("kind", "words"),
-    [("nan", "NaN"), ("negative", "negative radiance"), ("shape", "rows, columns and channels"),
-     ("truncated.png", "damaged"), ("truncated.hdr", "truncated"), ("large.hdr", "too large"),
-     ("gif", "must be a .png, .hdr, .exr or .npy file")],
-)  # fmt: skip
+    [
+        ("nan", "NaN"),
+        ("negative", "negative radiance"),
+        ("shape", "rows, columns and channels"),
+        ("truncated.png", "damaged"),
+        ("truncated.hdr", "truncated"),
+        ("large.hdr", "too large"),
+        ("gif", "must be a .png, .hdr, .exr or .npy file"),
+    ],
+)
 def test_images(kind: str, words: str, cli: Callable[..., Any], tmp_path: Path) -> None:
     outcome = cli("radiance", _image_scene(tmp_path, _write(tmp_path, kind)))
     assert (outcome.code, outcome.err.count("\n")) == (2, 1), outcome
@@ -126,17 +137,21 @@ def test_weights_beyond_one_warn_and_fail(cli: Callable[..., Any], tmp_path: Pat
 
 @pytest.mark.parametrize(
     ("arguments", "code"),
-    [(["radiance"], 2), (["radiance", "--model", "ggx"], 2), (["radiance", "no.toml"], 2),
-     (["radiance", "--model", "ggx", "--environment", "cosine"], 2),
-     (["radiance", "--model", "ggx", "--environment", "cap:200"], 2),
-     (["radiance", "--model", "ggx", "--environment", "sun:1"], 2),
-     (["radiance", "--model", "lambert", "--environment", "constant", "--plot", "r.gif"], 5),
-     (["render", "--model", "lambert", "--furnace", "-o", "s.gif"], 5),
-     (["render", "--model", "lambert", "--furnace", "-o", "no/s.png"], 5),
-     (["render", "--model", "lambert", "--furnace", "--size", "3", "-o", "s.png"], 2),
-     (["render", "--model", "lambert", "-o", "s.png"], 2),
-     (["render", "--model", "lambert", "--furnace", "-p", "albedo=0:1:99", "-o", "s.png"], 2)],
-)  # fmt: skip
+    [
+        (["radiance"], 2),
+        (["radiance", "--model", "ggx"], 2),
+        (["radiance", "no.toml"], 2),
+        (["radiance", "--model", "ggx", "--environment", "cosine"], 2),
+        (["radiance", "--model", "ggx", "--environment", "cap:200"], 2),
+        (["radiance", "--model", "ggx", "--environment", "sun:1"], 2),
+        (["radiance", "--model", "lambert", "--environment", "constant", "--plot", "r.gif"], 5),
+        (["render", "--model", "lambert", "--furnace", "-o", "s.gif"], 5),
+        (["render", "--model", "lambert", "--furnace", "-o", "no/s.png"], 5),
+        (["render", "--model", "lambert", "--furnace", "--size", "3", "-o", "s.png"], 2),
+        (["render", "--model", "lambert", "-o", "s.png"], 2),
+        (["render", "--model", "lambert", "--furnace", "-p", "albedo=0:1:99", "-o", "s.png"], 2),
+    ],
+)
 def test_command_lines(
     arguments: list[str], code: int, cli: Callable[..., Any], tmp_path: Path, monkeypatch: Any
 ) -> None:

@@ -73,7 +73,9 @@ def test_truth(group: str) -> None:
 def test_estimates(group: str) -> None:
     for entry in (e for e in ENTRIES if e["model"] == group):
         scene, wo = _scene(entry)
-        (found,) = radiance.measure(plan.make(scene), wo, Plan(points="independent", samples=1 << 14, seed=1))
+        (found,) = radiance.measure(
+            plan.make(scene), wo, Plan(points="independent", samples=1 << 14, seed=1)
+        )
         e, expected = found.estimate, float(entry["value"])
         if not found.unfit:
             half = student.quantile(LEVEL / 2.0, 15) * e.stderr

@@ -20,7 +20,9 @@ def _sphere_rule() -> tuple[np.ndarray, np.ndarray]:
     phi = 2.0 * np.pi * np.arange(24) / 24.0
     z, phi = (a.ravel() for a in np.meshgrid(z, phi, indexing="ij"))
     s = np.sqrt(1.0 - z * z)
-    return np.stack([s * np.cos(phi), s * np.sin(phi), z]), np.repeat(weight, 24) * 2.0 * np.pi / 24.0
+    return np.stack([s * np.cos(phi), s * np.sin(phi), z]), np.repeat(
+        weight, 24
+    ) * 2.0 * np.pi / 24.0
 
 
 def test_harmonics_are_orthonormal() -> None:
@@ -77,10 +79,15 @@ def test_sampler_follows_its_pdf(shape: object) -> None:
     shape = shape[0] if isinstance(shape, tuple) and not hasattr(shape, "_fields") else shape
     functions = skies.FUNCTIONS[type(shape)]
     k = np.arange(1 << 12)
-    u = np.stack([(k + 0.5) / len(k), (k * 0.6180339887498949) % 1.0], axis=1)  # a Fibonacci lattice
+    u = np.stack(
+        [(k + 0.5) / len(k), (k * 0.6180339887498949) % 1.0], axis=1
+    )  # a Fibonacci lattice
     for tell in ((1.0, 0.0, 0.0), (0.3, -0.8, 0.5)):
         rows = [functions.sample(*point, shape) for point in u.tolist()]
-        terms = [functions.radiance(w, shape) * (2.0 + np.dot(w, tell)) / functions.pdf(w, shape) for w in rows]
+        terms = [
+            functions.radiance(w, shape) * (2.0 + np.dot(w, tell)) / functions.pdf(w, shape)
+            for w in rows
+        ]
         assert np.allclose([np.dot(w, w) for w in rows], 1.0, atol=1e-14)
         assert np.mean(terms) == pytest.approx(_integral(shape, np.array(tell)), rel=3e-3)
 

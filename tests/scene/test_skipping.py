@@ -49,16 +49,28 @@ shapes = st.one_of(
 )
 lights = st.one_of(
     st.builds(Directional, angles, colours),
-    st.builds(lambda at, colour: Point(at, colour), st.tuples(st.floats(-2.0, 2.0), st.floats(-2.0, 2.0), st.floats(-1.0, 3.0))
-              .filter(lambda v: max(map(abs, v)) > 0.1), colours),  # fmt: skip
+    st.builds(
+        lambda at, colour: Point(at, colour),
+        st.tuples(st.floats(-2.0, 2.0), st.floats(-2.0, 2.0), st.floats(-1.0, 3.0)).filter(
+            lambda v: max(map(abs, v)) > 0.1
+        ),
+        colours,
+    ),
 )
 LAMBERT, PHONG = mb.load("lambert"), mb.load("phong")
 lobes = st.one_of(
-    st.builds(lambda w, a: Lobe("lambert", w, LAMBERT, tuple(LAMBERT.parameters(albedo=v) for v in a)),
-              colours, colours),
-    st.builds(lambda w, k, n: Lobe("phong", w, PHONG, tuple(PHONG.parameters(ks=v, n=n) for v in k)),
-              colours, colours, st.floats(0.5, 20.0)),
-)  # fmt: skip
+    st.builds(
+        lambda w, a: Lobe("lambert", w, LAMBERT, tuple(LAMBERT.parameters(albedo=v) for v in a)),
+        colours,
+        colours,
+    ),
+    st.builds(
+        lambda w, k, n: Lobe("phong", w, PHONG, tuple(PHONG.parameters(ks=v, n=n) for v in k)),
+        colours,
+        colours,
+        st.floats(0.5, 20.0),
+    ),
+)
 scenes = st.builds(
     lambda *parts: Scene("random", 3, *parts),
     st.lists(lobes, min_size=1, max_size=3).map(lambda ls: Surface(tuple(ls))),
@@ -76,7 +88,9 @@ def test_random_scenes(scene: Scene, theta: float) -> None:
 
 
 def _skipped(scene: Scene) -> str:
-    return "; ".join(f"{i.what}: {i.reason}" for i in claims.plan_of(scene).items if not i.evaluated)
+    return "; ".join(
+        f"{i.what}: {i.reason}" for i in claims.plan_of(scene).items if not i.evaluated
+    )
 
 
 def test_what_is_skipped_and_why() -> None:

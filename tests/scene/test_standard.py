@@ -37,7 +37,9 @@ def _formula(s: Standard, theta: float, count: int) -> list[float]:
         if s.form == "phong":
             lobe = max(0.0, math.cos(i) * math.cos(o) - across)
         else:
-            lobe = (math.cos(i) + math.cos(o)) / math.sqrt(2.0 + 2.0 * (across + math.cos(i) * math.cos(o)))
+            lobe = (math.cos(i) + math.cos(o)) / math.sqrt(
+                2.0 + 2.0 * (across + math.cos(i) * math.cos(o))
+            )
         spread = math.cos(i) ** (s.gloss if s.gloss_on_diffuse else 1.0)
         for c in range(3):
             total[c] += colour[c] * (s.diffuse[c] * spread + s.specular[c] * lobe**s.gloss)
@@ -106,7 +108,9 @@ def test_energy_is_read_and_mended(tmp_path: Any) -> None:
         exact = math.pi * kd + 0.4 * 2.0 * math.pi / 10.0 * single_axis(mu, 9.0)
         assert f.value == pytest.approx(exact, rel=3e-3)
         furnace = claims.as_lobes(scene.under_constant_light(1.0))
-        truth_now = truth.reference(furnace, from_degrees(f.where["theta_o_deg"]), f.where["channel"])
+        truth_now = truth.reference(
+            furnace, from_degrees(f.where["theta_o_deg"]), f.where["channel"]
+        )
         assert truth_now.value == pytest.approx(exact, rel=1e-12)
 
 

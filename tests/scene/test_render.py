@@ -1,0 +1,100 @@
+"""The sphere: flat in a furnace, equal to `radiance` at its pixels, written whole or not at all."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scenes import EXAMPLES, written
+
+import montecarlo_brdf as mb
+from montecarlo_brdf.report.spheres import difference
+from montecarlo_brdf.scene import truth
+from montecarlo_brdf.scene.make import scene_of
+from montecarlo_brdf.scene.read import read_scene
+from montecarlo_brdf.scene.render import render
+from montecarlo_brdf.vectors import from_degrees
+
+LOSSLESS = [("lambert", {"albedo": 1.0}), ("eon", {"albedo": 1.0, "roughness": 1.0})]
+
+
+def _furnace(name: str, size: int = 96, **values: Any) -> Any:
+    model = mb.load(name)
+    p = model.parameters(**values)
+    return render(scene_of(model.of(p), p, "constant:0.5"), size=size)
+
+
+@pytest.mark.parametrize(("name", "values"), LOSSLESS)
+def test_lossless_spheres_disappear(name: str, values: dict[str, float]) -> None:
+    sphere = _furnace(name, **values)
+    assert np.abs(sphere.values - 0.5).max() < 1e-4
+    assert sphere.error < 1e-4
+
+
+def test_a_gain_shows_in_the_difference() -> None:
+    """Blinn-Phong (n + 8)/(8 pi): 1.0752 at the normal, in the middle of the picture."""
+    sphere = _furnace("blinn_phong", 97, ks=1.0, n=8.7637, norm="n+8")
+    panel = difference(sphere, 0.5)
+    assert panel[48, 48] == pytest.approx(0.0752012, abs=1e-4)
+    assert np.nanmin(panel) < -0.5
+    assert np.isnan(panel[0, 0])
+
+
+def test_table_agrees_with_truth() -> None:
+    """Interpolation and sampling stay within the error that is stated."""
+    model = mb.load("ggx")
+    scene = scene_of(model, model.parameters(alpha=0.3), "constant:1")
+    sphere = render(scene, size=65)
+    row = sphere.values[32, sphere.inside[32], 0]
+    x = ((np.arange(65) + 0.5) * (2.2 / 65) - 1.1)[sphere.inside[32]]
+    for theta, value in zip(np.degrees(np.arcsin(np.abs(x))), row, strict=True):
+        exact = truth.reference(scene, from_degrees(float(theta)), 0).value
+        assert abs(value - exact) <= sphere.error + 1e-6
+
+
+def test_pixels_are_the_radiance_of_their_place(tmp_path: Path) -> None:
+    """The middle pixel is the flat surface seen from the normal, under a tilted sky and lamps."""
+    scene = read_scene(EXAMPLES / "cook_torrance.toml")
+    sphere = render(scene, size=9, samples=1 << 14)
+    for c in range(3):
+        exact = truth.reference(scene, (0.0, 0.0, 1.0), c).value
+        assert sphere.values[4, 4, c] == pytest.approx(exact, rel=2e-3)
+    standard = read_scene(EXAMPLES / "standard.toml")
+    assert standard.name and written(tmp_path, (EXAMPLES / "standard.toml").read_text())
+
+
+def test_threads_change_nothing() -> None:
+    scene = read_scene(EXAMPLES / "blinn_phong.toml")
+    one, two = (render(scene, size=64, samples=16, threads=t) for t in (1, 2))
+    assert np.array_equal(one.values, two.values)
+
+
+def test_files(cli: Callable[..., Any], tmp_path: Path) -> None:
+    png, npy = tmp_path / "s.png", tmp_path / "s.npy"
+    arguments = ["render", "--model", "lambert", "--furnace", "-p", "albedo=0.5,1", "--size", "32"]
+    outcome = cli(*arguments, "-o", str(png), "-o", str(npy))
+    assert outcome.code == 0, outcome
+    assert outcome.out.count("difference to the light") == 2
+    assert np.load(npy).shape == (32, 64, 1)
+    assert png.read_bytes().startswith(b"\x89PNG")
+
+
+def test_exr(tmp_path: Path) -> None:
+    """What is written can be read again, also as a sky."""
+    pytest.importorskip("OpenEXR")
+    from montecarlo_brdf.report.spheres import save
+    from montecarlo_brdf.scene.image import read_image
+
+    sphere = render(read_scene(EXAMPLES / "standard.toml"), size=16)
+    save(tmp_path / "s.exr", [sphere], ["standard"], None)
+    assert np.allclose(read_image(tmp_path / "s.exr").values, sphere.values, rtol=1e-6)
+
+
+def test_a_spectrum_is_no_picture(cli: Callable[..., Any], tmp_path: Path) -> None:
+    png = tmp_path / "s.png"
+    arguments = ["--model", "lambert", "-p", "albedo=1/0.5/0.2/0.1", "--size", "16"]
+    outcome = cli("render", *arguments, "--furnace", "-o", str(png))
+    assert outcome.code == 2
+    assert "a picture needs 1 or 3 channels, not 4" in outcome.err
+    assert not png.exists()
