@@ -93,7 +93,7 @@ def assert_checks(
     report = verify.run(model, given, names=checks, deadline=deadline, **options)
     if report.measured["interrupted"]:
         raise KeyboardInterrupt
-    require(report, inconclusive, reproducible=not callable(getattr(brdf, "f", brdf)))
+    require(report, inconclusive, reproducible=_loadable(model))
     return report
 
 
@@ -105,6 +105,11 @@ def require(report: Report, inconclusive: str = "fail", reproducible: bool = Tru
     if lines:
         cases = ", ".join(dict.fromkeys(case(r) for r in report.results))
         raise AssertionError("\n".join([f"{cases}: {report.verdict}", *lines]))
+
+
+def _loadable(model: Model) -> bool:
+    """Whether a command line can name the model."""
+    return model.built_in or bool(model.terms) or ".py" in model.name
 
 
 def as_model(brdf: Any, p: Any = None) -> Model:

@@ -14,7 +14,7 @@ from montecarlo_brdf.cli._jobs import Job, from_options
 from montecarlo_brdf.cli._progress import progress
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.report import baseline
-from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.report.findings import Finding, Report, Result, versions
 from montecarlo_brdf.report.read import read_report
 
 INTERRUPTED = 130
@@ -36,6 +36,7 @@ def run_all(options: dict[str, Any], given: Sequence[str]) -> int:
     given: the options that were given, not left at their defaults.
     """
     _options.check_outputs(options["form"], options["export_json"])
+    versions()  # imports what a report needs while no thread imports anything
     earlier = read_report(options["baseline"]) if options["baseline"] else None
     seed = _options.seed_of(options["seed"])
     if options["spec"]:

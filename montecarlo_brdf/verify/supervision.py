@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 TICK = 0.1  # seconds; waiting that cannot be interrupted (on Windows) must be short
+UNWINDING = 0.5  # seconds: an import that is cut off must be cleared away before others import
 STACK = 64 << 20  # bytes: compilers recurse deeply, and some systems give threads little
 
 
@@ -47,6 +48,7 @@ class _Work:
         """Have the thread end as soon as it can."""
         identity = ctypes.c_ulong(self.thread.ident or 0)
         ctypes.pythonapi.PyThreadState_SetAsyncExc(identity, ctypes.py_object(Left))
+        self.ended.wait(UNWINDING)
 
 
 _left: list[_Work] = []
