@@ -149,11 +149,11 @@ FILES = {
     ),
     "raises somewhere": (
         "def f(wo, wi, p):\n    if wi[2] < 0.01:\n        raise ValueError('low')\n    return 0.1",
-        "raised an exception while it was",
+        "raised an exception while",
     ),
     "returns None somewhere": (
         "def f(wo, wi, p):\n    if wi[2] > 0.05:\n        return 0.1",
-        "raised an exception while it was",
+        "raised an exception while",
     ),
 }  # fmt: skip
 
