@@ -72,7 +72,7 @@ def _check_declared(spec: str, namespace: Mapping[str, Any]) -> None:
     for name, ends in (namespace.get("domain") or {}).items():
         pair = isinstance(ends, list | tuple) and len(ends) == 2
         if not pair or not all(isinstance(e, int | float) for e in ends):
-            raise ModelError(f"domain of model {spec} must give (low, high) for {name}, not {ends!r}")
+            raise ModelError(f"domain of model {spec} must give (low, high) for {name}")
 
 
 def _from_file(path: Path) -> types.ModuleType:

@@ -2,6 +2,7 @@
 
 tol = 1e-13 in double and 1e-5 in single, beyond what the inputs determine (stability.errors).
 """
+
 from __future__ import annotations
 
 import math
@@ -13,7 +14,9 @@ from montecarlo_brdf.stability import arithmetic, designed
 from montecarlo_brdf.stability.stress import Outcome, outcome
 
 #: (model, precision) -> why errors are larger, and where: nowhere else are they allowed.
-GRAZING_RANGE = "D G/(4 mu mu) as one quotient: q^2 (mu_i S_o + mu_o S_i) leaves the range of single"
+GRAZING_RANGE = "one quotient: q^2 (mu_i S_o + mu_o S_i) leaves the range of single at grazing"
+    "D G/(4 mu mu) as one quotient: q^2 (mu_i S_o + mu_o S_i) leaves the range of single"
+)
 SMALL_REST = "f is what is left of terms that cancel or vanish: its absolute error is small"
 EXCEPTIONS = {
     ("ggx", "float32"): GRAZING_RANGE,

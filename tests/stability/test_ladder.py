@@ -1,4 +1,5 @@
 """The ladder itself: branches on arrays, types that stay what they are, truths that are true."""
+
 from __future__ import annotations
 
 import math
@@ -12,7 +13,11 @@ from montecarlo_brdf.model import build
 from montecarlo_brdf.stability import arithmetic, designed, ladder
 from montecarlo_brdf.stability.ladder import Rung, in_precision
 
-SINGLE, DOUBLE, EXACT = arithmetic.precision("float32"), arithmetic.precision("float64"), arithmetic.exact()
+SINGLE, DOUBLE, EXACT = (
+    arithmetic.precision("float32"),
+    arithmetic.precision("float64"),
+    arithmetic.exact(),
+)
 
 
 def branching(x: float, y: float) -> float:
@@ -31,7 +36,9 @@ def test_branches_mean_what_they_mean_for_one_number() -> None:
     assert many.tolist() == [branching(a, b) for a, b in zip(x, y, strict=True)]
 
 
-@pytest.mark.parametrize("name", ["lambert", "ggx", "phong", "oren_nayar", "minnaert", "eon", "beckmann"])
+@pytest.mark.parametrize(
+    "name", ["lambert", "ggx", "phong", "oren_nayar", "minnaert", "eon", "beckmann"]
+)
 def test_double_is_the_plain_function(name: str) -> None:
     model = loading.load(name)
     points = designed.directions(DOUBLE, 0.3, True)
@@ -66,7 +73,9 @@ def test_widening_is_not_silent(f: object) -> None:
 def test_every_model_stays_in_its_precision(name: str) -> None:
     one = arithmetic.precision(name)
     points = designed.directions(one, 0.3, True)
-    for model in map(loading.load, ["ggx", "phong", "blinn_phong", "minnaert", "eon", "disney_diffuse"]):
+    for model in map(
+        loading.load, ["ggx", "phong", "blinn_phong", "minnaert", "eon", "disney_diffuse"]
+    ):
         q = ladder.rounded(model.parameters(), one)
         assert Rung(model, one).f(points.wo, points.wi, q).dtype == one.dtype
 
