@@ -32,6 +32,9 @@ _HOMES = {
     "hemisphere_integral": "integration.estimators",
     "furnace": "verify",
     "identities": "verify",
+    "read_scene": "scene.read",
+    "radiance": "verify.radiance",
+    "render": "scene.render",
     "run": "verify",
     "stress": "verify.stress",
 }
