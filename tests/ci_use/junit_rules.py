@@ -2,6 +2,7 @@
 
 They restate the public junit-10 schema of Jenkins' xUnit plugin; `faults` lists what breaks them.
 """
+
 from __future__ import annotations
 
 import re
@@ -13,7 +14,18 @@ RULES: dict[str, tuple[set[str], set[str], set[str]]] = {
     "testsuites": (set(), {"name", "time", "tests", "failures", "errors"}, {"testsuite"}),
     "testsuite": (
         {"name", "tests", "failures", "errors"},
-        {"group", "time", "skipped", "timestamp", "hostname", "id", "package", "file", "log", "url"},
+        {
+            "group",
+            "time",
+            "skipped",
+            "timestamp",
+            "hostname",
+            "id",
+            "package",
+            "file",
+            "log",
+            "url",
+        },
         {"testsuite", "properties", "testcase", "system-out", "system-err"},
     ),
     "properties": (set(), set(), {"property"}),
@@ -48,10 +60,16 @@ def _of(element: Element) -> Iterator[str]:
     required, optional, children = RULES[tag]
     yield from (f"<{tag}> lacks {a}" for a in required - set(element.attrib))
     yield from (f"<{tag}> has {a}" for a in set(element.attrib) - required - optional)
-    yield from (f"<{child.tag}> stands in <{tag}>" for child in element if child.tag not in children)
+    yield from (
+        f"<{child.tag}> stands in <{tag}>" for child in element if child.tag not in children
+    )
     if tag not in WITH_TEXT and (element.text or "").strip():
         yield f"<{tag}> has text"
-    if "time" in element.attrib and tag != "testcase" and not TIME.fullmatch(element.attrib["time"]):
+    if (
+        "time" in element.attrib
+        and tag != "testcase"
+        and not TIME.fullmatch(element.attrib["time"])
+    ):
         yield f"<{tag}> has time {element.attrib['time']}"
     for attribute, counted in COUNTS.items():
         if attribute in element.attrib:

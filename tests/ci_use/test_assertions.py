@@ -1,4 +1,5 @@
 """montecarlo_brdf.testing: whatever form a BRDF has, and what a failure says."""
+
 from __future__ import annotations
 
 import math
@@ -83,7 +84,9 @@ def test_a_refutation_says_what_and_where() -> None:
 
 
 def test_a_command_reproduces_what_a_command_can_load() -> None:
-    with pytest.raises(AssertionError, match="reproduce: brdf-check run --model lambert_unnormalised"):
+    with pytest.raises(
+        AssertionError, match="reproduce: brdf-check run --model lambert_unnormalised"
+    ):
         assert_furnace("lambert_unnormalised", {"c": 0.5}, **FEW)
 
 
@@ -107,7 +110,8 @@ def test_samples_against_pdf() -> None:
     assert_samples_match_pdf(good, theta_o_deg=(45.0,), tolerance=0.05)
     with pytest.raises(AssertionError, match="pdf Jacobian"):
         assert_samples_match_pdf(
-            SimpleNamespace(f=scaled, Params=Params, sample=cosine, pdf=uniform), theta_o_deg=(45.0,)
+            SimpleNamespace(f=scaled, Params=Params, sample=cosine, pdf=uniform),
+            theta_o_deg=(45.0,),
         )
     with pytest.raises(UserError, match="no sample and pdf"):
         assert_samples_match_pdf(scaled, Params())

@@ -1,4 +1,5 @@
 """The difference of two reports, and when it fails a run."""
+
 from __future__ import annotations
 
 import json

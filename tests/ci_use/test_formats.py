@@ -1,4 +1,5 @@
 """Every format is a pure function of the report, and what its readers accept."""
+
 from __future__ import annotations
 
 import csv
@@ -31,7 +32,9 @@ def report(**settings: object) -> Report:
     """All verdicts there are, and text that is hard to write."""
     findings = [
         finding("pass"),
-        finding("fail", hint=NASTY, reproduce="brdf-check run --model my_brdf.py --check 'furnace'"),
+        finding(
+            "fail", hint=NASTY, reproduce="brdf-check run --model my_brdf.py --check 'furnace'"
+        ),
         finding("fail", value=math.nan, stderr=math.inf),
         finding("known", note="published so"),
         finding("inconclusive", note="undecided at 1024 samples"),
@@ -68,9 +71,9 @@ def test_junit_keeps_the_rules() -> None:
         "<testsuites><testcase name='a'/></testsuites>",
         "<testsuite name='a' tests='1' failures='0' errors='0'/>",
         "<testsuite tests='0' failures='0' errors='0'/>",
-        "<testsuites><testsuite name='a' tests='0' failures='0' errors='0'>x</testsuite></testsuites>",
+        "<testsuite name='a' tests='0' failures='0' errors='0'>text</testsuite>",
         "<testsuite name='a' tests='0' failures='0' errors='0' time='1e3'/>",
-        "<testsuite name='a' tests='1' failures='0' errors='0'><testcase name='a' file='b'/></testsuite>",
+        "<testsuites><property name='a' value='b'/></testsuites>",
     ],
 )
 def test_the_rules_see_faults(text: str) -> None:
@@ -134,8 +137,12 @@ def test_exports_and_step_summary(
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(summary))
     files = [tmp_path / f"report{suffix}" for suffix in formats.suffixes()]
     exports = [word for file in files for word in ("--export", file)]
-    done = cli("identities", "--samples", "2^14", "--tolerance", "0.1", "--format", "github", *exports)
-    assert done.code == 0 and done.out == "brdf-check identities: pass; 9 pass\n" or "pass" in done.out
+    done = cli(
+        "identities", "--samples", "2^14", "--tolerance", "0.1", "--format", "github", *exports
+    )
+    assert (
+        done.code == 0 and done.out == "brdf-check identities: pass; 9 pass\n" or "pass" in done.out
+    )
     assert summary.read_text(encoding="utf-8").startswith("## brdf-check identities: PASS")
     texts = {file.suffix: file.read_text(encoding="utf-8") for file in files}
     assert json.loads(texts[".json"])["verdict"] == "pass"

@@ -1,4 +1,5 @@
 """The pytest plugin, in a project that knows nothing of this one."""
+
 from __future__ import annotations
 
 import subprocess
@@ -35,7 +36,7 @@ def scratch(tmp_path: Path) -> Path:
 
 
 def pytest_in(folder: Path, *arguments: str) -> tuple[int, str]:
-    """Exit code and output of pytest; the plugin is named as an old installation may not know it."""
+    """Exit code and output of pytest; it names the plugin if the installation does not know it."""
     known = {entry.value for entry in entry_points(group="pytest11")}
     named = [] if PLUGIN in known else ["-p", PLUGIN]
     command = [sys.executable, "-m", "pytest", *named, *arguments]

@@ -1,4 +1,5 @@
-"""brdf-check.toml: what it asks for is what runs; mistakes are told with line and allowed values."""
+"""brdf-check.toml: what it asks for is what runs; mistakes come with line and allowed values."""
+
 from __future__ import annotations
 
 import json
@@ -50,7 +51,10 @@ def test_jobs(project: Callable[[str], Path]) -> None:
     ]
     assert all(j.theta_o_deg == [0.0, 60.0] and j.samples == 16384 for j in jobs)
     assert jobs[1].p is not None and [tuple(p) for p in jobs[1].p] == [(0.2,), ((0.9, 0.5),)]
-    assert [j.title() for j in jobs[1].single()] == ["lambert(albedo=0.2)", "lambert(albedo=0.9/0.5)"]
+    assert [j.title() for j in jobs[1].single()] == [
+        "lambert(albedo=0.2)",
+        "lambert(albedo=0.9/0.5)",
+    ]
     assert _project.read(project(GOOD), {"seed": 3, "tolerance": 0.5}).jobs[1].tolerance == 0.5
 
 
@@ -116,14 +120,18 @@ def test_mistakes(
     assert done.err.count("\n") == 1
 
 
-def test_a_model_that_does_not_load(project: Callable[[str], Path], cli: Callable[..., Outcome]) -> None:
+def test_a_model_that_does_not_load(
+    project: Callable[[str], Path], cli: Callable[..., Outcome]
+) -> None:
     path = project(GOOD)
     (path.parent / "mine.py").write_text("1/0\n", encoding="utf-8")
     done = cli("run")
     assert done.code == 4 and "line 6" in done.err and "ZeroDivisionError" in done.err
 
 
-def test_nothing_to_run(cli: Callable[..., Outcome], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_to_run(
+    cli: Callable[..., Outcome], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     done = cli("run")
     assert done.code == 2 and "--model" in done.err and "brdf-check.toml" in done.err

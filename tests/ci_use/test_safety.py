@@ -1,4 +1,5 @@
 """Models that take for ever: limits hold, Ctrl-C holds, and what was found is not lost."""
+
 from __future__ import annotations
 
 import json
@@ -19,6 +20,7 @@ from montecarlo_brdf import load
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import work
 from montecarlo_brdf.integration.estimators import directional_albedo
+from montecarlo_brdf.integration.kernel import BLOCK
 from montecarlo_brdf.verify import Deadline, subject
 from montecarlo_brdf.verify.supervision import still_running, supervised
 
@@ -68,7 +70,9 @@ def test_work_that_does_not_end_is_ended() -> None:
 
 
 @pytest.mark.parametrize("text", [NEVER, SLEEPS, STUCK], ids=["never", "sleeps", "stuck"])
-def test_max_time_holds(text: str, process: Callable[..., Outcome], user_file: Any, tmp_path: Path) -> None:
+def test_max_time_holds(
+    text: str, process: Callable[..., Outcome], user_file: Any, tmp_path: Path
+) -> None:
     report = tmp_path / "report.json"
     model = user_file(text)
     started = time.monotonic()
@@ -142,7 +146,9 @@ def test_cuts_never_show(monkeypatch: pytest.MonkeyPatch) -> None:
     assert all(bits(seconds) == whole for seconds in (1e-9, 2e-5, 3e-4))
 
 
-@pytest.mark.parametrize(("pace", "most"), [(1e-3, 1024), (2e-5, 4096), (1e-9, 15_000)])
+@pytest.mark.parametrize(
+    ("pace", "most"), [(1e-3, BLOCK), (2e-5, 5000), (1e-9, 15_000)]
+)
 def test_calls_of_a_slow_kernel_are_short(pace: float, most: int) -> None:
     """Whole blocks of one replicate or whole replicates, every sample once."""
 
@@ -152,7 +158,7 @@ def test_calls_of_a_slow_kernel_are_short(pace: float, most: int) -> None:
     kernel.pace = pace  # type: ignore[attr-defined]
     ladder = work.Ladder(kernel, (0.0,), 1, key=1, replicates=3)
     pieces = list(ladder._pieces(5000))
-    assert all(many * size <= most and done % 1024 == 0 for _, many, done, size in pieces)
+    assert all(many * size <= most and done % BLOCK == 0 for _, many, done, size in pieces)
     samples = [
         (r, i)
         for skipped, many, done, size in pieces
