@@ -137,9 +137,10 @@ def test_plot_draws_the_same_picture_again(kind: str, cli: Command, tmp_path: Pa
 def test_the_picture_shows_albedo_reference_and_error(report: Report) -> None:
     from montecarlo_brdf.report.plots import albedo_figure
 
-    top, bottom = albedo_figure(report.to_dict()).axes
+    figure = albedo_figure(report.to_dict())
+    _, bottom = figure.axes
     assert bottom.get_yscale() == "log" and "theta_o" in bottom.get_xlabel()
-    labels = [text.get_text() for text in top.get_legend().get_texts()]
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert any("reference" in text for text in labels) and any("stderr" in text for text in labels)
 
 

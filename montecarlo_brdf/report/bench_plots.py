@@ -27,7 +27,7 @@ def bench_figure(data: dict[str, Any]) -> Any:
     results = data["results"]
     columns = min(3, max(1, len(results)))
     rows = max(1, math.ceil(len(results) / columns))
-    figure = Figure(figsize=(3.4 * columns + 0.5, 3.0 * rows + 1.1), layout="constrained")
+    figure = Figure(figsize=(max(7.0, 3.4 * columns + 0.5), 3.0 * rows + 1.1), layout="constrained")
     panels = figure.subplots(rows, columns, sharey=True, sharex=True, squeeze=False)
     for axes, result in zip(panels.flat, results, strict=False):
         _panel(axes, result)
