@@ -73,7 +73,10 @@ def test_small_angles_are_not_lost(theta: float) -> None:
     assert to_angles(from_angles(theta, 0.5))[0] == pytest.approx(theta, rel=4 * EPS)
 
 
-@given(raw, st.sampled_from([2.0, 1024.0]))  # exact, where halving would round denormals
+normal = raw.filter(lambda v: all(c == 0.0 or abs(c) > 1e-290 for c in v))  # scaled exactly
+
+
+@given(normal, st.sampled_from([0.5, 2.0, 1024.0]))
 def test_angles_do_not_depend_on_length(v: Vec, scale: float) -> None:
     assert to_angles((v[0] * scale, v[1] * scale, v[2] * scale)) == to_angles(v)
 

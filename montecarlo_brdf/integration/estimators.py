@@ -297,4 +297,5 @@ def _first_reason(error: Exception) -> str:
     """The line of a numba error that says what is wrong, without its stack of contexts."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     telling = [line for line in lines if not line.startswith(("Failed in", "During:", "-", "File"))]
-    return " ".join((telling or lines or ["numba gave no reason"])[0].split())[:300]
+    reason = (telling or lines or ["numba gave no reason"])[0]
+    return " ".join(reason.partition(": %")[0].split())[:300]  # without the machine's own names
