@@ -52,7 +52,8 @@ METHODS: dict[str, Callable[[Workload], peers.Runs]] = {OURS: ours, **peers.PEER
 def sweep(work: Workload, names: Sequence[str]) -> Iterator[tuple[Timing, peers.Run]]:
     """Time and error of every setting of every method that is installed."""
     for name in names:
-        with contextlib.suppress(ImportError, RuntimeWarning):  # cubepy gives up with a warning
+        # cubepy gives up with a warning
+        with contextlib.suppress(ImportError, RuntimeWarning):
             theirs = name == "mitsuba llvm" and work.model_name == "ggx"
             truth = separable(work) if theirs else work.truth()
             for setting, run in METHODS[name](work):
@@ -153,7 +154,9 @@ def quartiles(values: Sequence[float]) -> tuple[float, float, float]:
     return low, middle, high
 
 
-def bench(names: Sequence[str], works: Sequence[str], rounds: int, progress: Any = None) -> list[Any]:
+def bench(
+    names: Sequence[str], works: Sequence[str], rounds: int, progress: Any = None
+) -> list[Any]:
     """`compare` for every workload asked for."""
     chosen = [w for w in WORKLOADS if w.name in works]
     results = []

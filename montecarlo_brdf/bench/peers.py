@@ -5,6 +5,7 @@ that is not installed raises ImportError.
 """
 from __future__ import annotations
 
+import functools
 import glob
 import math
 import os
@@ -32,13 +33,17 @@ def numpy_monte_carlo(work: Workload) -> Runs:
         u = np.random.default_rng(seed).random((2, n))
         return float(cosine(u[0], u[1]).mean())
 
-    yield from ((f"N = {n}", lambda seed, n=n: run(n, seed)) for n in SIZES)
+    yield from ((f"N = {n}", functools.partial(run, n)) for n in SIZES)
 
 
 def naive_numba(work: Workload) -> Runs:
     """A plain loop with np.random, math.sqrt, math.sin and math.cos under njit."""
     loop = integrand(work.name).loop
-    yield from ((f"N = {n}", lambda seed, n=n: loop(n)) for n in SIZES)
+
+    def run(n: int, seed: int) -> float:
+        return loop(n)
+
+    yield from ((f"N = {n}", functools.partial(run, n)) for n in SIZES)
 
 
 def scipy_sobol(work: Workload) -> Runs:
@@ -51,33 +56,32 @@ def scipy_sobol(work: Workload) -> Runs:
         u = qmc.Sobol(2, rng=seed).random(n)
         return float(cosine(u[:, 0].copy(), u[:, 1].copy()).mean())
 
-    yield from ((f"N = {n}", lambda seed, n=n: run(n, seed)) for n in SIZES)
+    yield from ((f"N = {n}", functools.partial(run, n)) for n in SIZES)
+
+
+def _double(f: Any, e: float, seed: int) -> float:
+    from scipy.integrate import dblquad
+
+    return float(dblquad(f, 0.0, math.pi, 0.0, HALF_PI, epsabs=0.0, epsrel=e)[0])
 
 
 def scipy_dblquad(work: Workload) -> Runs:
     """scipy.integrate.dblquad with a compiled function called through Python."""
-    from scipy.integrate import dblquad
-
     at = integrand(work.name).at
     for e in TOLERANCES:
-        yield f"epsrel {e:g}", lambda seed, e=e: dblquad(
-            at, 0.0, math.pi, 0.0, HALF_PI, epsabs=0.0, epsrel=e
-        )[0]
+        yield f"epsrel {e:g}", functools.partial(_double, at, e)
 
 
 def scipy_dblquad_compiled(work: Workload) -> Runs:
     """scipy.integrate.dblquad with a LowLevelCallable: no Python in the inner loop."""
     import numba
     from scipy import LowLevelCallable
-    from scipy.integrate import dblquad
 
     at = integrand(work.name).at
     signature = numba.float64(numba.intc, numba.types.CPointer(numba.float64))
     call = LowLevelCallable(numba.cfunc(signature)(lambda n, x: at(x[0], x[1])).ctypes)
     for e in TOLERANCES:
-        yield f"epsrel {e:g}", lambda seed, e=e: dblquad(
-            call, 0.0, math.pi, 0.0, HALF_PI, epsabs=0.0, epsrel=e
-        )[0]
+        yield f"epsrel {e:g}", functools.partial(_double, call, e)
 
 
 def scipy_cubature(work: Workload) -> Runs:
@@ -85,13 +89,13 @@ def scipy_cubature(work: Workload) -> Runs:
     from scipy.integrate import cubature
 
     batch = integrand(work.name).batch
-    for e in TOLERANCES:
-        yield f"rtol {e:g}", lambda seed, e=e: float(
-            cubature(
-                lambda x: batch(x[:, 0].copy(), x[:, 1].copy()), [0.0, 0.0], [HALF_PI, math.pi],
-                rtol=e, atol=0.0, rule="gk21",
-            ).estimate
-        )  # fmt: skip
+
+    def run(e: float, seed: int) -> float:
+        f = lambda x: batch(x[:, 0].copy(), x[:, 1].copy())  # noqa: E731
+        found = cubature(f, [0.0, 0.0], [HALF_PI, math.pi], rtol=e, atol=0.0, rule="gk21")
+        return float(found.estimate)
+
+    yield from ((f"rtol {e:g}", functools.partial(run, e)) for e in TOLERANCES)
 
 
 def cubepy_adaptive(work: Workload) -> Runs:
@@ -105,10 +109,10 @@ def cubepy_adaptive(work: Workload) -> Runs:
     def flat(theta: Any, phi: Any) -> Any:
         return batch(np.ascontiguousarray(theta), np.ascontiguousarray(phi))
 
-    for e in TOLERANCES:
-        yield f"rtol {e:g}", lambda seed, e=e: float(
-            np.ravel(cubepy.integrate(flat, low, high, rtol=e, atol=0.0)[0])[0]
-        )
+    def run(e: float, seed: int) -> float:
+        return float(np.ravel(cubepy.integrate(flat, low, high, rtol=e, atol=0.0)[0])[0])
+
+    yield from ((f"rtol {e:g}", functools.partial(run, e)) for e in TOLERANCES)
 
 
 def vegas_adaptive(work: Workload) -> Runs:
@@ -124,7 +128,7 @@ def vegas_adaptive(work: Workload) -> Runs:
         made = vegas.Integrator([[0.0, HALF_PI], [0.0, math.pi]])
         return float(made(f, nitn=10, neval=n // 10).mean)
 
-    yield from ((f"N = {n}", lambda seed, n=n: run(n, seed)) for n in SIZES)
+    yield from ((f"N = {n}", functools.partial(run, n)) for n in SIZES)
 
 
 def mitsuba_llvm(work: Workload) -> Runs:
@@ -152,7 +156,7 @@ def mitsuba_llvm(work: Workload) -> Runs:
         _, value = bsdf.sample(mi.BSDFContext(), si, sampler.next_1d(), sampler.next_2d())
         return float(dr.mean(mi.Float64(value[0]))[0])
 
-    yield from ((f"N = {n}", lambda seed, n=n: run(n, seed)) for n in SIZES)
+    yield from ((f"N = {n}", functools.partial(run, n)) for n in SIZES)
 
 
 def llvm_libraries() -> list[str]:

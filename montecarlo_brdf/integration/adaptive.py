@@ -137,12 +137,16 @@ def _until(
     """Try methods until one reaches the target; the last word is the last one's."""
     rejected: list[str] = []
     for method in (picked,) if picked else methods(model):
-        climb = _climb(prepare(model, p, type(p), method), wo, plan, final=picked is not None)
+        climb = _climb(prepare(model, p, _kind(p), method), wo, plan, final=picked is not None)
         if climb.reached:
             break
         rejected.append(f"{method.sampler} x {method.points} {climb.complaint}")
     story = told(method, rejected)
     return [estimate(row)._replace(method=story) for row in climb.rows], climb.reached
+
+
+def _kind(p: Any) -> Any:
+    return type(p)
 
 
 def told(method: Method, rejected: Sequence[str]) -> str:
@@ -154,7 +158,7 @@ def suited(model: Model, p: Any, wo: Vec, plan: Plan) -> Method:
     """The first method that the probe accepts for a fixed number of samples."""
     size = max(FIRST, plan.samples // max(1, plan.replicates))
     for method in methods(model):
-        setting = prepare(model, p, type(p), method)
+        setting = prepare(model, p, _kind(p), method)
         reals = (*wo, setting.width, *setting.numbers)
         job = work.Job(
             setting.entry, reals, setting.channels, 0, 4, FIRST, shape_of(method.points, FIRST)
@@ -208,7 +212,8 @@ def _climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Climb:
         shape = shape_of(points, size)
         if size * plan.replicates > work.CHUNK:
             job = work.Job(setting.entry, reals, width, key, plan.replicates, size, shape)
-            states = [x for row in zip(*work.run(job, plan.threads), strict=True) for m in row for x in m]
+            rows = zip(*work.run(job, plan.threads), strict=True)
+            states = [x for row in rows for m in row for x in m]
         else:
             states = ladder.states(size, shape)
         means = [states[STATE * k + 1 :: STATE * width] for k in range(width)]
