@@ -2,8 +2,9 @@
 
     python scripts/fuzz.py [--minutes 60] [--seed 0] [--record fuzz.json]
 
-Draws from tests/robustness/fuzzing.py. A failure is an exit code that is no answer (70 is an internal
-error), an exception, or a case slower than 20 s. With --record the count goes on where it stopped.
+Draws from tests/robustness/fuzzing.py. A failure is an exit code that is no answer (70 is an
+internal error), an exception, or a case slower than 20 s. With --record the count goes on where it
+stopped.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ import time
 import warnings
 from pathlib import Path
 from typing import Any
+
+from montecarlo_brdf.cli import run  # before a command of that name replaces it
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "robustness"))
 SLOW = 20.0
@@ -40,8 +43,6 @@ def case(kind: str, drawn: Any, folder: Path) -> list[str]:
 def attempt(arguments: list[str]) -> str | None:
     """What was wrong with the answer, or None."""
     import fuzzing
-
-    from montecarlo_brdf.cli import run
 
     started = time.monotonic()
     quiet = io.StringIO()

@@ -2,8 +2,8 @@
 
     python scripts/fuzz_models.py [--evaluations 10000000] [--seed 0] [MODEL ...]
 
-Directions are uniform in the logarithm of the cosine (down to 1e-15) for half of the points, uniform
-on the hemisphere for the other half; parameters uniform in the domain or in its logarithm. A
+Directions are uniform in the logarithm of the cosine (down to 1e-15) for half of the points, and
+uniform on the hemisphere for the rest; parameters uniform in the domain or in its logarithm. A
 violation is an f or pdf that is NaN, infinite or negative where the model does not disclaim it, a
 sample that is NaN or not of unit length within 1e-14, or a kept sample of density 0.
 """

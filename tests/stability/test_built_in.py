@@ -15,8 +15,6 @@ from montecarlo_brdf.stability.stress import Outcome, outcome
 
 #: (model, precision) -> why errors are larger, and where: nowhere else are they allowed.
 GRAZING_RANGE = "one quotient: q^2 (mu_i S_o + mu_o S_i) leaves the range of single at grazing"
-    "D G/(4 mu mu) as one quotient: q^2 (mu_i S_o + mu_o S_i) leaves the range of single"
-)
 SMALL_REST = "f is what is left of terms that cancel or vanish: its absolute error is small"
 EXCEPTIONS = {
     ("ggx", "float32"): GRAZING_RANGE,

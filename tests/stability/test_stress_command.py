@@ -1,0 +1,58 @@
+"""brdf-check stress: tables, verdicts, reproduction lines, pictures, mistakes."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Cli = Callable[..., Any]
+
+
+def test_textbook_fails_and_ours_holds(cli: Cli) -> None:
+    for name, code in (("textbook_phong", 1), ("phong", 0)):
+        done = cli("stress", "--model", name, "--quick", "--precision", "float32,float64")
+        assert done.code == code, done.out
+
+
+def test_reproduction_line_reproduces(cli: Cli) -> None:
+    done = cli("stress", "--model", "textbook_phong", "--quick", "--precision", "float32")
+    line = re.search(r"brdf-check (stress .*)", done.out)
+    value = re.search(r"float32 gives (\S+), the truth is (\S+)", done.out)
+    assert line and value
+    again = cli(*line[1].split())
+    shown = dict(row.split()[:2] for row in again.out.splitlines())
+    assert float(shown["float32"]) == pytest.approx(float(value[1]), rel=1e-8)
+    assert float(shown["truth"]) == pytest.approx(float(value[2]), rel=1e-8)
+
+
+def test_comparison_report_and_picture(cli: Cli, tmp_path: Path) -> None:
+    picture, export = tmp_path / "d.png", tmp_path / "d.json"
+    done = cli("stress", "--compare", "textbook_ggx", "schlick_ggx", "--quick",
+               "--precision", "float64", "--plot", picture, "--export-json", export)  # fmt: skip
+    assert done.code == 1 and picture.stat().st_size > 10_000
+    report = json.loads(export.read_text())
+    assert [r["model"] for r in report["results"]] == ["textbook_ggx", "schlick_ggx"]
+    assert [r["verdict"] for r in report["results"]] == ["fail", "pass"]
+    assert cli("plot", export, "-o", tmp_path / "again.png").code == 0
+    assert (tmp_path / "again.png").read_bytes() == picture.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--quick"], "either --model MODEL or --compare A B"),
+        (["--model", "textbok_ggx"], "did you mean 'textbook_ggx'"),
+        (["--model", "ggx", "--precision", "float33"], "did you mean 'float32'"),
+        (["--model", "ggx", "--max-error", "0"], "max-error must be a number in (0, 1]"),
+        (["--model", "ggx", "--at", "0,0,1"], "six numbers"),
+        (["--model", "ggx", "--plot", "x.gif"], ".png, .svg or .pdf"),
+    ],
+)
+def test_mistakes(cli: Cli, arguments: list[str], said: str) -> None:
+    done = cli("stress", *arguments, "--quick")
+    assert done.code in (2, 5) and said in done.err
