@@ -51,13 +51,15 @@ def stretched(w: Vec, alpha: float) -> float:
 def ggx_reflection(h: Vec, wo: Vec, wi: Vec, alpha: float) -> float:
     """D G/(4 mu_i mu_o) with height-correlated Smith masking (Heitz 2014, eq. 99), as one quotient.
 
-    G/(4 mu_i mu_o) = 1/(2 (mu_i S_o + mu_o S_i)) is finite at the horizon.
+    G/(4 mu_i mu_o) = 1/(2 (mu_i S_o + mu_o S_i)) is finite at the horizon. The quotient is used
+    twice, or the compiler would draw the Fresnel factor into it and divide once per channel.
     """
     t2, z, l2 = h
     a2 = alpha * alpha
     q = a2 * z * z + t2
     masked = wi[2] * stretched(wo, alpha) + wo[2] * stretched(wi, alpha)
-    return 0.5 / math.pi * a2 * l2 * l2 / (q * q * masked)
+    r = 1.0 / (q * masked)
+    return 0.5 / math.pi * a2 * l2 * l2 * (r * r * masked)
 
 
 def schlick(h: Vec, f0: float) -> float:
