@@ -39,6 +39,10 @@ FIRST = 64  # samples of a replicate at the first look,
 FINE, FIRST_FINE = 1e-5, 256  # and where the target is finer than that: less has no chance
 MOST = {"lattice": 20, "sobol": 20, "stratified": 20, "independent": 22}  # log2, the last look
 SHARE = 0.25  # largest share of a replicate's total that a probed value may have
+#: A sampler's weight may be 0 once in a million draws (a rejected direction) and 1 otherwise: until
+#: one was seen all replicates agree. An event of probability `target` stays unseen in
+#: SEEN/target samples with chance e^-SEEN. A probed chart has no such events.
+SEEN = 10.0
 LARGEST_NEED = 1 << 14  # samples of a replicate: beyond that the chart does not fit
 TARGETS = (1e-13, 1.0)
 
@@ -69,6 +73,7 @@ class Climb(NamedTuple):
     rows: list[list[Moments]]
     reached: bool
     complaint: str
+    error: float  # largest relative half-width
 
 
 def check_target(target: Any) -> float:
@@ -135,13 +140,18 @@ def _until(
     model: Model, p: Any, wo: Vec, plan: Plan, picked: Method | None
 ) -> tuple[list[Estimate], bool]:
     """Try methods until one reaches the target; the last word is the last one's."""
-    rejected: list[str] = []
+    tried: list[tuple[Method, Climb]] = []
     for method in (picked,) if picked else methods(model):
         climb = _climb(prepare(model, p, _kind(p), method), wo, plan, final=picked is not None)
+        tried.append((method, climb))
         if climb.reached:
             break
-        rejected.append(f"{method.sampler} x {method.points} {climb.complaint}")
-    story = told(method, rejected)
+    # without success the method that fits and came closest
+    best, climb = min(
+        tried, key=lambda t: (not t[1].reached, "not fit" in t[1].complaint, t[1].error)
+    )
+    others = [f"{m.sampler} x {m.points} {c.complaint}" for m, c in tried if c.complaint]
+    story = told(best, others)
     return [estimate(row)._replace(method=story) for row in climb.rows], climb.reached
 
 
@@ -205,8 +215,10 @@ def _climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Climb:
     key = stream(plan.seed, points, *setting.identity, *wo)
     ladder = work.Ladder(setting.entry, reals, width, key, plan.replicates)
     highest = _highest(setting, reals)
+    fewest = 0.0 if setting.probe or not target else SEEN / (target * plan.replicates)
     most = min(1 << MOST[points], SETS[points][0])
     size = FIRST_FINE if target <= FINE else FIRST
+    size = max(size, min(most, 1 << math.ceil(math.log2(max(1.0, fewest)))))
     errors = [math.inf] * 3
     while True:
         shape = shape_of(points, size)
@@ -218,11 +230,11 @@ def _climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Climb:
             states = ladder.states(size, shape)
         means = [states[STATE * k + 1 :: STATE * width] for k in range(width)]
         worst, need = _worst(means, highest, len(errors) - 2)
-        reached = worst <= target and need <= size
+        reached = worst <= target and max(need, fewest) <= size
         errors.append(worst)
-        complaint = "" if reached else _complaint(errors, need, size >= most)
+        complaint = "" if reached else _complaint(errors, need, size >= most, bool(setting.probe))
         if reached or size >= most or (complaint and not final):
-            return Climb(_moments(states, width), reached, complaint)
+            return Climb(_moments(states, width), reached, complaint, worst)
         # an error falls by less than 32 when N doubles (slope -5): do not look where it cannot be
         size = min(most, size * (4 if worst > 32.0 * target else 2))
 
@@ -254,13 +266,13 @@ def _worst(
     return worst, need
 
 
-def _complaint(errors: list[float], need: float, last: bool) -> str:
+def _complaint(errors: list[float], need: float, last: bool, chart: bool) -> str:
     """Why this method will not get there, or nothing."""
     if need > LARGEST_NEED:
         return f"does not fit: a probed value needs {need:.0e} samples"
     if last:
         return f"only reached {errors[-1]:.1e}"
-    if len(errors) > 7 and errors[-1] > 0.5 * errors[-4]:
+    if chart and len(errors) > 7 and errors[-1] > 0.5 * errors[-4]:
         return "does not fit: its replicates do not converge"
     return ""
 
