@@ -1,6 +1,7 @@
 """tan(theta_h) by sqrt(1 - cos^2): the root of a negative where cos rounds above 1.
 
 caught by: positivity
+named by: root of a negative
 """
 
 import math
@@ -20,12 +21,12 @@ def dot(a, b):
 
 def normalize(v):
     length = math.sqrt(dot(v, v))
-    s = 1.0 / length
-    return v[0] * s, v[1] * s, v[2] * s
+    return v[0] / length, v[1] / length, v[2] / length
 
 
 def half_vector(wo, wi):
-    return normalize((wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]))
+    s = 1.0 / math.sqrt(2.0 + 2.0 * dot(wo, wi))
+    return (wo[0] + wi[0]) * s, (wo[1] + wi[1]) * s, (wo[2] + wi[2]) * s
 
 
 def distribution(h, alpha):

@@ -1,6 +1,7 @@
 """Lambert with 1/pi twice.
 
 caught by: equality
+named by: 1/pi is applied twice
 """
 
 import math

@@ -1,6 +1,7 @@
 """Oren-Nayar divided by pi once more.
 
 caught by: equality
+named by: 1/pi is applied twice
 """
 
 import math

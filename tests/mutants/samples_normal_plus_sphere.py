@@ -1,6 +1,7 @@
 """n + a direction on the sphere, not normalised.
 
 caught by: pdf
+named by: not of unit length
 """
 
 import math

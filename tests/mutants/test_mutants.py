@@ -3,6 +3,7 @@
 The models are files as users write them. A mutant's docstring names the check: "caught by: energy".
 All checks of all of them: scripts/detection_matrix.py, docs/detection_matrix.md.
 """
+
 from __future__ import annotations
 
 import re

@@ -1,6 +1,6 @@
 """The exponent of the warp is 2 % off.
 
-caught by: sampling
+caught by: pdf
 """
 
 import math
