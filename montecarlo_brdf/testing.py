@@ -71,9 +71,16 @@ def assert_samples_match_pdf(brdf: Any, p: Any = None, **options: Any) -> Report
 
 
 def assert_converges(brdf: Any, p: Any = None, **options: Any) -> Report:
-    """The error of every estimator falls with the number of samples as it should."""
+    """The error of every estimator falls with the number of samples as its point set promises;
+    options are those of `verify.converge`, and inconclusive."""
+    from montecarlo_brdf.verify.converge import converge
+
     __tracebackhide__ = True
-    return assert_checks(brdf, p, ("convergence",), **options)
+    model = as_model(brdf, p)
+    inconclusive = options.pop("inconclusive", "fail")
+    report = converge(model, parameters_of(model, p), **options)
+    require(report, inconclusive, reproducible=_loadable(model))
+    return report
 
 
 def assert_checks(

@@ -61,19 +61,20 @@ def supervised(function: Callable[[], Any], limit: Limit, grace: float = 0.0) ->
     """
     work = _started(function)
     late: float | None = None
+    done = False
     try:
-        while not work.ended.wait(TICK):
+        while not (done := work.ended.wait(TICK)):
             if limit.over():
                 late = late or time.monotonic()
                 if time.monotonic() - late >= grace:
                     break
     finally:  # also when whoever waits here is interrupted, or left itself
-        if not work.ended.is_set():
+        if not done:
             work.leave()
             _left.append(work)
-    if work.ended.is_set() and work.error and not isinstance(work.error, Left):
+    if done and work.error:
         raise work.error
-    return work.ended.is_set()
+    return done
 
 
 def _started(function: Callable[[], Any]) -> _Work:
