@@ -57,6 +57,7 @@ class Fit(NamedTuple):
     p_value: float
     samples: int
     note: str | None = None  # why the density could not be integrated
+    hint: str | None = None
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,7 @@ class MeanClaim:
     property: str = "reference"
     reproduce: str = ""
     unit: Mapping[str, float] = field(default_factory=dict)  # what the hint compares the value with
+    cause: str | None = None  # the hint where no number tells
     fallback: Callable[[], Measurement] | None = None  # asked where samples leave the claim open
 
 

@@ -11,7 +11,7 @@ import functools
 from collections.abc import Iterator
 from typing import Any
 
-from montecarlo_brdf.checks import fitness, truth
+from montecarlo_brdf.checks import fitness, search, truth
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import (
     AGREEMENT_TOLERANCE,
@@ -31,12 +31,15 @@ from montecarlo_brdf.vectors import Vec
 NAME = "furnace"
 QUESTION = "how much of a constant light is reflected, and is that what theory says?"
 PROPERTY = "energy"
+SMALLEST = 0.05  # albedo below which agreement is absolute
 
 
 def claims(case: Case) -> Iterator[Claim]:
     """Two per angle and channel, and for a mixture that its weights add up to at most 1."""
     for theta in case.theta_o_deg:
         yield from _at_angle(case, theta)
+    if case.model.albedo and case.free:
+        yield inside(case, "A elsewhere", lambda mu, p: float(case.model.albedo(mu, p)), "albedo()")
     for k, one in enumerate(case.sets if case.model.terms else []):
         yield _weights(case, one, {"channel": k} if len(case.sets) > 1 else {})
 
@@ -73,6 +76,32 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
             unit=units(case.model, one),
             fallback=quadrature,
         )
+
+
+def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
+    """A where it is farthest from `known(cos_theta_o, p)`, of all angles and free parameters."""
+    space = search.Space(case)
+    value = search.albedo(space, "albedo")
+
+    def expected(at: search.At) -> float:
+        return known(search.direction(space, at)[2], space.parameters(at))
+
+    def deviation(at: search.At, plan: Plan) -> float:
+        return abs(value(at, plan) - expected(at)) / max(abs(expected(at)), SMALLEST)
+
+    at = search.worst(space, deviation).at
+    theta, phi = space.direction(at)
+    there = case._replace(p=space.parameters(at), phi_o_deg=phi, free=())
+    return MeanClaim(
+        quantity,
+        space.where(at, "o"),
+        "equal",
+        Reference(expected(at), 0.0, "declared", source),
+        case.tolerated(AGREEMENT_TOLERANCE) * max(abs(expected(at)), SMALLEST),
+        functools.partial(of_channel, functools.cache(functools.partial(measure, there, theta)), 0),
+        property="reference",
+        unit=units(case.model, there.one),
+    )
 
 
 def _weights(case: Case, one: Any, where: dict[str, Any]) -> Claim:

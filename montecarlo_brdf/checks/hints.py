@@ -2,6 +2,9 @@
 from __future__ import annotations
 
 import math
+from typing import Any
+
+import numpy as np
 
 from montecarlo_brdf.checks.claim import MeanClaim
 
@@ -22,23 +25,60 @@ CLOSE = 2e-3
 def hint(claim: MeanClaim, value: float) -> str | None:
     """A sentence that names the likely cause of a refuted claim, if the number tells."""
     if not math.isfinite(value):
-        return "f is not finite for some direction: look for a division by zero or a root of a negative"
-    units = dict(claim.unit)
+        return "f is not finite for some direction: look for 1/0 or the root of a negative number"
+    units = dict(claim.unit) or {"1": 1.0}
+    close = CLOSE if claim.bound == "equal" else 5.0 * CLOSE  # the search for the worst is coarse
     if claim.expected is not None and claim.bound == "equal" and claim.expected.value:
         units = {"expected": claim.expected.value, **units}
     for name, unit in units.items():
-        cause = factor_named(value / unit)
+        cause = factor_named(value / unit, close)
         if cause:
-            return f"{claim.quantity.split()[0]} / {name} = {cause}"
-    return None
+            return f"{_subject(claim)} / {name} = {cause}"
+    return claim.cause
 
 
-def factor_named(ratio: float) -> str | None:
+def _subject(claim: MeanClaim) -> str:
+    """What was measured, without what is claimed of it."""
+    return claim.quantity.removeprefix("worst ").partition(" <=")[0]
+
+
+def factor_named(ratio: float, close: float = CLOSE) -> str | None:
     """'pi: the factor 1/pi is missing' for a ratio that is close to a telling number."""
     for factor, cause in FACTORS.items():
-        if abs(ratio / factor - 1.0) < CLOSE:
+        if abs(ratio / factor - 1.0) < close:
             return f"{_symbol(factor)}: {cause}"
     return None
+
+
+def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
+    """The factor and shape by which many values are off, if it is one of the usual ones."""
+    h = wo + wi
+    h = h / np.sqrt(np.sum(h * h, axis=1))[:, None]
+    mu_i, mu_o, mu_h = wi[:, 2], wo[:, 2], h[:, 2]
+    dot = np.sum(wo * h, axis=1)
+    shapes = {
+        "": np.ones_like(ratio),
+        " cos_i": mu_i,
+        " cos_o": mu_o,
+        " cos_i cos_o": mu_i * mu_o,
+        " n.h": mu_h,
+        " wo.h": dot,
+        " n.h/wo.h": mu_h / dot,
+    }
+    for name, shape in [*shapes.items(), *((f"/{n.strip()}", 1.0 / s) for n, s in shapes.items())]:
+        quotient = ratio / shape
+        middle = float(np.median(quotient))
+        if len(quotient) > 100 and np.quantile(abs(quotient / middle - 1.0), 0.98) < CLOSE:
+            cause = _cause(name) if name else factor_named(middle) or _cause(name)
+            return f"{middle:.6g}{name} everywhere: {cause}"
+    return None
+
+
+def _cause(shape: str) -> str:
+    if not shape:
+        return "a constant factor: look at the normalisation"
+    inverse = shape.startswith("/")
+    return f"{shape.strip(' /')} is {'missing' if inverse else 'included, which does not belong'}"
 
 
 def _symbol(factor: float) -> str:

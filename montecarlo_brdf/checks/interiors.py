@@ -1,6 +1,7 @@
 """Parameter sets to look at: the one asked about, and others from the interior of the ranges."""
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -24,6 +25,8 @@ def between(low: float, high: float, t: float) -> float:
 def share(low: float, high: float, value: float) -> float:
     """The t of a value: the inverse of `between`."""
     value = min(max(value, low), high)
+    if low == high:
+        return 0.0
     if low > 0.0 and high > WIDE * low:
         return math.log(value / low) / math.log(high / low)
     if low == 0.0 and high > WIDE:
@@ -47,11 +50,32 @@ def position(case: Case, p: Any) -> dict[str, float]:
 def sets(case: Case, count: int = INTERIORS) -> Iterator[Any]:
     """The channels asked about, then points of the interior (a Sobol set, the same every time)."""
     yield from case.sets
-    if not case.free:
-        return
-    for k in range(count):
+    yield from itertools.islice(sets_inside(case), count)
+
+
+def sets_inside(case: Case) -> Iterator[Any]:
+    """Points of the interior without end; none if no parameter is free."""
+    for k in itertools.count() if case.free else ():
         u = sobol(case.seed + 0x5EED, k)
         yield at(case, {n: u[i % 5] for i, n in enumerate(case.free)})
+
+
+def ends(case: Case) -> Iterator[Any]:
+    """Each free parameter exactly at either end of its range, the others as they are."""
+    for name in case.free:
+        for value in search_range(case.model, name) or ():
+            yield case.one._replace(**{name: float(value)})
+
+
+#: polar angle and azimuth in degrees, for the k-th of the cases elsewhere
+PLACES = ((45.0, 130.0), (70.0, 250.0), (30.0, 20.0), (55.0, 200.0), (75.0, 310.0))
+
+
+def elsewhere(case: Case) -> Iterator[tuple[Case, float]]:
+    """The case turned, then other parameters at other angles: mistakes that defaults hide."""
+    sets = [case.one, *itertools.islice(sets_inside(case), len(PLACES) - 1)]
+    for p, (theta, phi) in zip(sets, PLACES, strict=False):
+        yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
 
 
 def changed(case: Case, p: Any) -> dict[str, float]:

@@ -33,6 +33,8 @@ def claims(case: Case) -> Iterator[Claim]:
         yield Skip("limits", "the model declares no limits and no lossless parameter set")
     for p in lossless:
         yield from _lossless_claims(case, p)
+    if case.model.lossless is True and case.free:
+        yield furnace.inside(case, "A of a lossless surface", lambda mu, p: 1.0, "lossless")
     for changes, spec in declared:
         yield _limit(case, dict(changes), spec)
 

@@ -84,7 +84,10 @@ def scale_of(wo: Array, wi: Array) -> float:
     """A slope below which few of the drawn directions lie."""
     h = np.asarray(wi) + np.asarray(wo)
     slopes = np.hypot(h[:, 0], h[:, 1]) / np.maximum(h[:, 2], 1e-300)
-    return 0.3 * float(np.quantile(slopes, 0.1)) if len(slopes) else 1.0
+    if not len(slopes):
+        return 1.0
+    wide, sharp = np.quantile(slopes, (0.1, 1e-3))
+    return float(min(0.3 * wide, 3.0 * sharp))  # differ where a sharp lobe is drawn now and then
 
 
 def grid(nx: int, nb: int) -> tuple[Array, Array, Array]:

@@ -13,6 +13,7 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 
 #: numbers from which lobe coordinates learn the width of a sampler's lobe
 PILOT = 4096
+SHARPEST = 1e-5  # slope of the sharpest lobe that a model without a sampler may have
 
 
 def albedo(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
@@ -73,18 +74,38 @@ def deterministic(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> 
 
 
 def lobe_scale(model: Model, one: Any, wo: Any) -> float:
-    """The smallest slope of interest: from the model's own draws, else small enough for any lobe."""
+    """The smallest slope of interest: from the model's own draws, else from values of f."""
     import numpy as np
 
     from montecarlo_brdf.checks.case import pointwise
     from montecarlo_brdf.checks.lobe_coordinates import scale_of
 
     if model.sample is None:
-        return 1e-3
+        return _probed_scale(model, one, wo)
     u = np.random.default_rng(PILOT).random((PILOT, 3))
     drawn, _ = pointwise(model, one).sample(wo, u)
     drawn = drawn[np.isfinite(drawn).all(axis=1)]
     return scale_of(wo, drawn[drawn[:, 2] > 0.0])
+
+
+def _probed_scale(model: Model, one: Any, wo: Any) -> float:
+    """The slope within which f cos has a tenth of its weight, from a few lines through the mirror
+    direction: what draws would tell if there were a sampler."""
+    import numpy as np
+
+    from montecarlo_brdf.checks.case import pointwise
+    from montecarlo_brdf.checks.lobe_coordinates import Coordinates
+
+    finest = Coordinates(wo, SHARPEST)
+    x, b = (g.ravel() for g in np.meshgrid((np.arange(96) + 0.5) / 96, (0.2, 0.7), indexing="ij"))
+    wi, jacobian = finest.directions(x, b)
+    weight = np.abs(pointwise(model, one).f(wo, wi)) * wi[:, 2] * jacobian
+    share = np.cumsum(np.where(np.isfinite(weight), weight, 0.0))
+    if not share[-1] > 0.0:
+        return 1.0
+    k = int(np.searchsorted(share, 0.1 * share[-1]))
+    h = wi[k] + wo
+    return float(max(0.3 * np.hypot(h[0], h[1]) / h[2], SHARPEST))
 
 
 def _weight(p: Any, term: Any) -> float:
