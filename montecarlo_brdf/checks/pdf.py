@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import (
     Claim,
@@ -24,6 +25,7 @@ from montecarlo_brdf.checks.claim import (
     Reference,
     Skip,
 )
+from montecarlo_brdf.checks.hints import shape_named
 from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
 from montecarlo_brdf.checks.truth import lobe_scale
 from montecarlo_brdf.integration.estimators import Plan, estimates
@@ -49,27 +51,65 @@ def claims(case: Case) -> Iterator[Claim]:
         return
     for theta in case.theta_o_deg:
         yield _claim(case, theta, "drawn directions at fault", 0.0, _faults)
-        if case.model.pdf is None:
-            continue
-        yield _normalisation(case, theta)
-        if chooses(case, theta):
-            yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
-        else:
-            yield _claim(case, theta, "|pdf Jacobian - 1|", JACOBIAN_TOLERANCE, _jacobian)
-        if np.isfinite(_drawn(case, theta)[2]).any():
-            yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", UNIT_TOLERANCE, _weight)
+        if case.model.pdf is not None:
+            yield _normalisation(case, theta)
+            yield from _pointwise(case, theta)
+    for other, theta in interiors.elsewhere(case):
+        yield _claim(other, theta, "drawn directions at fault", 0.0, _faults)
+        if case.model.pdf is not None:
+            if resolved(other, theta):
+                yield _normalisation(other, theta)
+            yield from _pointwise(other, theta)
+    if case.model.pdf is not None:
+        yield _claim(case, None, "values of pdf at fault", 0.0, _values)
 
 
-def _claim(case: Case, theta: float, quantity: str, tolerance: float, evaluate: Any) -> ExactClaim:
+def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
+    """What holds draw by draw."""
+    if chooses(case, theta):
+        yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
+    else:
+        yield _claim(case, theta, "|pdf Jacobian - 1|", JACOBIAN_TOLERANCE, _jacobian)
+    if np.isfinite(_drawn(case, theta)[2]).any():
+        yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", UNIT_TOLERANCE, _weight)
+
+
+def resolved(case: Case, theta: float) -> bool:
+    """Whether the quadrature of pdf is good enough to judge by."""
+    found = density_integral(case.model, case.one, case.wo(theta))
+    return bool(found.error <= 0.25 * MASS_TOLERANCE)
+
+
+def _claim(case: Case, theta: Any, quantity: str, tolerance: float, evaluate: Any) -> ExactClaim:
     return ExactClaim(
         quantity,
-        case.where(theta_o_deg=theta),
+        _where(case, theta),
         "at most",
         Reference(0.0, 0.0, "law", "sampler and density belong together"),
         tolerance,
         functools.partial(evaluate, case, theta),
         property=PROPERTY,
     )
+
+
+def _where(case: Case, theta: Any) -> dict[str, Any]:
+    places = {} if theta is None else case.where(theta_o_deg=theta)
+    return {**places, **interiors.changed(case, case.one)}
+
+
+def _values(case: Case, _: Any) -> Exact:
+    """How often pdf is negative or not finite, also where it is not drawn but asked by others."""
+    count, points, where, hint = 0, 0, {}, None
+    for k, p in enumerate(interiors.sets(case, 3)):
+        wo, wi = directions.random_pairs(case.random(NAME, "values", k))
+        density = pointwise(case.model, p).pdf(wo, wi)
+        bad = ~(np.isfinite(density) & (density >= 0.0))
+        if bad.any() and not count:
+            j = int(np.argmax(bad))
+            where = {**interiors.changed(case, p), **directions.place(wo[j], wi[j])}
+            hint = f"pdf is {density[j]:.6g}: other samplers ask for it anywhere"
+        count, points = count + int(bad.sum()), points + len(bad)
+    return Exact(float(count), 0.0, where, points, hint=hint)
 
 
 def _drawn(case: Case, theta: float, n: int = POINTS) -> tuple[Any, Any, Any]:
@@ -117,7 +157,7 @@ def _edges() -> Any:
 def _normalisation(case: Case, theta: float) -> MeanClaim:
     return MeanClaim(
         "int pdf + rejected",
-        case.where(theta_o_deg=theta),
+        _where(case, theta),
         "equal",
         Reference(1.0, 0.0, "law", "a density integrates to 1"),
         case.tolerated(MASS_TOLERANCE),
@@ -165,17 +205,18 @@ def _jacobian(case: Case, theta: float) -> Exact:
     above = (w[:, 2] > 1e-3) & (np.minimum(sides[0][1], sides[1][1]) > 0.0)
     if above.sum() < 100:
         return Exact(0.0, points=0, note="hardly any draw lies above the horizon")
-    off = np.abs(functions.pdf(wo, w[above]) * area[above] - 1.0)
-    ratio = float(np.median(functions.pdf(wo, w[above]) * area[above]))
-    value = float(np.quantile(off, 1.0 - SEAMS))
-    return Exact(value, points=int(above.sum()), hint=_factor(ratio))
+    ratio = functions.pdf(wo, w[above]) * area[above]
+    value = float(np.quantile(np.abs(ratio - 1.0), 1.0 - SEAMS))
+    return Exact(value, points=int(above.sum()), hint=_ratio(ratio, wo, w[above]))
 
 
-def _factor(ratio: float) -> str:
-    from montecarlo_brdf.checks.hints import factor_named
-
-    cause = factor_named(ratio)
-    return f"pdf times the sampler's Jacobian is {ratio:.5g} in the middle" + (f" = {cause}" if cause else "")
+def _ratio(ratio: Any, wo: Any, w: Any) -> str:
+    """What pdf times Jacobian is, by its shape where that has a name."""
+    named = shape_named(ratio, np.broadcast_to(wo, w.shape), w)
+    if named:
+        return f"pdf / density of the draws = {named}"
+    low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
+    return f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
 
 
 def _weight(case: Case, theta: float) -> Exact:
@@ -186,5 +227,6 @@ def _weight(case: Case, theta: float) -> Exact:
     expected = functions.f(wo, w[above]) * w[above][:, 2] / functions.pdf(wo, w[above])
     ratio = weight[above] / np.where(expected == 0.0, 1e-300, expected)
     k = int(np.argmax(np.abs(ratio - 1.0)))
-    hint = f"weight/(f cos/pdf) = {float(np.median(ratio)):.6g} in the middle"
+    named = shape_named(ratio, np.broadcast_to(wo, w[above].shape), w[above])
+    hint = f"weight/(f cos/pdf) = {named or f'{float(np.median(ratio)):.6g} in the middle'}"
     return Exact(float(abs(ratio[k] - 1.0)), points=int(above.sum()), hint=hint)

@@ -41,5 +41,6 @@ def fit_finding(claim: FitClaim, plan: Plan, known: str | None, level: float) ->
         samples=fit.samples,
         estimator="counts",
         note=known if verdict == "known" else fit.note,
+        hint=fit.hint if verdict in ("fail", "known") else None,
         reproduce=(claim.reproduce or None) if verdict != "pass" else None,
     )
