@@ -22,6 +22,8 @@ EDGES = (
 AZIMUTHS = (0.0, 1e-7, 0.5, 0.5 * math.pi, 2.5, math.pi - 1e-7, math.pi, 4.0)
 RANDOM = 20_000
 LOBE = 20_000
+SPECIAL = 2_000
+MIRROR = np.array([-1.0, -1.0, 1.0])
 HIGHEST_COSINE = 1e-6  # ordinary random directions keep clear of the horizon by this
 
 
@@ -37,7 +39,7 @@ def edge_pairs() -> tuple[Array, Array]:
     to, ti, phi = (g.ravel() for g in np.meshgrid(EDGES, EDGES, AZIMUTHS, indexing="ij"))
     wo, wi = vectors(to, 0.0), vectors(ti, phi)
     each = vectors(np.array(EDGES), 0.3)
-    mirror = each * np.array([-1.0, -1.0, 1.0])
+    mirror = each * MIRROR
     across = vectors(0.5 * np.pi - np.array(EDGES), 0.3 + np.pi)
     tilted = each[across[:, 2] > 0.0], across[across[:, 2] > 0.0]
     return (
@@ -60,11 +62,20 @@ def random_pairs(rng: Any, n: int = RANDOM) -> tuple[Array, Array]:
     return some(), some()
 
 
+def special_pairs(rng: Any, n: int = SPECIAL) -> tuple[Array, Array]:
+    """wi = wo and wi = mirror of wo at random directions, exactly and an ulp or two beside."""
+    wo, _ = random_pairs(rng, n)
+    partners = [wo, wo * MIRROR]
+    partners += [w + 2.0**-53 * rng.integers(-2, 3, size=w.shape) for w in partners]
+    return np.concatenate([wo] * len(partners)), np.concatenate(partners)
+
+
 def lobe_pairs(case: Case, p: Any, rng: Any, n: int = LOBE) -> tuple[Array, Array]:
     """Random wo with wi drawn by the model's own sampler: pairs that see a lobe of any width."""
     if case.model.sample is None:
         wo, _ = random_pairs(rng, n)
-        wi = wo * np.array([-1.0, -1.0, 1.0]) + 0.1 * rng.normal(size=(n, 3)) * rng.random((n, 1)) ** 4
+        centre = np.where(rng.random((n, 1)) < 0.5, wo, wo * MIRROR)  # lobes sit at either
+        wi = centre + 0.1 * rng.normal(size=(n, 3)) * rng.random((n, 1)) ** 4
         wi /= np.sqrt(np.sum(wi * wi, axis=1))[:, None]
     else:
         wo, _ = random_pairs(rng, n)
@@ -74,8 +85,8 @@ def lobe_pairs(case: Case, p: Any, rng: Any, n: int = LOBE) -> tuple[Array, Arra
 
 
 def all_pairs(case: Case, p: Any, rng: Any) -> tuple[Array, Array]:
-    """Edges, random pairs and pairs along the lobe."""
-    kinds = [edge_pairs(), random_pairs(rng), lobe_pairs(case, p, rng)]
+    """Edges, random pairs, special pairs and pairs along the lobe."""
+    kinds = [edge_pairs(), random_pairs(rng), special_pairs(rng), lobe_pairs(case, p, rng)]
     return np.concatenate([k[0] for k in kinds]), np.concatenate([k[1] for k in kinds])
 
 

@@ -5,6 +5,7 @@ pairs looked at, or beyond the parameters that the two models share.
 """
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,13 +14,20 @@ import numpy as np
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip
-from montecarlo_brdf.checks.hints import factor_named
+from montecarlo_brdf.checks.hints import shape_named
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model
 
 NAME = "equality"
 QUESTION = "is it the model that it says it is?"
 PROPERTY = "reference"
+#: conventions in which parameters are confused
+MAPPINGS = {
+    "{}^2": lambda v: v * v,
+    "sqrt({})": lambda v: math.sqrt(abs(v)),
+    "{} in degrees": math.radians,
+    "{} in radians": math.degrees,
+}
 TOLERANCE = 1e-6  # relative to the larger of the two values, and to 1e-6 of the largest
 
 
@@ -42,7 +50,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 def _worst(case: Case, other: Model) -> Exact:
     found = Exact(0.0, points=0)
-    for k, p in enumerate(interiors.sets(case)):
+    for k, p in enumerate([*interiors.sets(case), *interiors.ends(case)]):
         one = difference(case, p, other, shared(other, p), case.random(NAME, k))
         points = found.points + one.points
         found = (one if one.value >= found.value else found)._replace(points=points)
@@ -66,7 +74,23 @@ def difference(case: Case, p: Any, other: Model, q: Any, rng: Any) -> Exact:
     relative = np.abs(ours - theirs) / np.maximum(high, floor)
     k = int(np.argmax(relative))
     where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
-    return Exact(float(relative[k]), 0.0, where, len(wo), hint=_hint(ours, theirs, wo, wi, k))
+    hint = None
+    if relative[k] > TOLERANCE:
+        hint = _remapped(ours, wo, wi, other, q) or _hint(ours, theirs, wo, wi, k)
+    return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
+
+
+def _remapped(ours: Any, wo: Any, wi: Any, other: Model, q: Any) -> str | None:
+    """The other model with a parameter mapped as conventions differ, if that is what f is."""
+    some = slice(None, None, 97)
+    for name in q._fields:
+        for words, mapping in MAPPINGS.items():
+            changed = q._replace(**{name: mapping(getattr(q, name))})
+            values = pointwise(other, changed).f(wo[some], wi[some])
+            same = np.isclose(values, ours[some], rtol=1e-6, atol=0.0)
+            if changed != q and np.mean(same[ours[some] > 0.0]) > 0.9:
+                return f"it is {other.name} with {words.format(name)} where {name} is meant"
+    return None
 
 
 def _hint(ours: Any, theirs: Any, wo: Any, wi: Any, k: int) -> str:
@@ -74,24 +98,9 @@ def _hint(ours: Any, theirs: Any, wo: Any, wi: Any, k: int) -> str:
     both = (ours > 0.0) & (theirs > 0.0)
     ratio = ours[both] / theirs[both]
     ordinary = (wo[both][:, 2] > 0.05) & (wi[both][:, 2] > 0.05)
-    ratio, mu_i, mu_o = ratio[ordinary], wi[both][ordinary][:, 2], wo[both][ordinary][:, 2]
-    shapes = {
-        "": np.ones_like(ratio),
-        " cos_i": mu_i,
-        " cos_o": mu_o,
-        "/cos_i": 1.0 / mu_i,
-        "/cos_o": 1.0 / mu_o,
-        " cos_i cos_o": mu_i * mu_o,
-    }
-    for name, shape in shapes.items():
-        quotient = ratio / shape
-        if len(quotient) > 100 and np.ptp(quotient) < 2e-3 * abs(np.median(quotient)):
-            factor = float(np.median(quotient))
-            return f"f / f expected = {factor:.6g}{name} everywhere: {_cause(factor, name)}"
+    named = shape_named(ratio[ordinary], wo[both][ordinary], wi[both][ordinary])
+    if named:
+        return f"f / f expected = {named}"
+    if np.count_nonzero(ours == ours.max()) > 20 and theirs.max() > ours.max():
+        return f"f never exceeds {ours.max():.6g}: clipped, {theirs.max():.6g} is expected"
     return f"f = {ours[k]:.6g} where {theirs[k]:.6g} is expected"
-
-
-def _cause(factor: float, shape: str) -> str:
-    if shape:
-        return "a cosine is included that does not belong to f" if "/" not in shape else "divided by a cosine"
-    return factor_named(factor) or "a constant factor"

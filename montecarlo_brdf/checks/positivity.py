@@ -1,7 +1,8 @@
 """Positivity: is f finite and at least 0 everywhere?
 
 Over edge pairs (theta up to 90 degrees less an ulp, wi = wo, wi = mirror, wi . wo = 0), random
-pairs, pairs along the lobe; for the parameters asked about and some of the interior. It cannot see:
+pairs, pairs along the lobe; for the parameters asked about, some of the interior, and each at the
+ends of its range. It cannot see:
 a wrong value that is finite and positive.
 """
 from __future__ import annotations
@@ -45,7 +46,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 
 def _values(case: Case) -> Iterator[tuple[Any, Any, Any, Any]]:
-    for k, p in enumerate(interiors.sets(case)):
+    for k, p in enumerate([*interiors.sets(case), *interiors.ends(case)]):
         wo, wi = directions.all_pairs(case, p, case.random(NAME, k))
         yield p, wo, wi, pointwise(case.model, p).f(wo, wi)
 

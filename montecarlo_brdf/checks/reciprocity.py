@@ -58,7 +58,18 @@ def _worst_of(case: Case, p: Any, rng: Any) -> Exact:
     k = int(np.argmax(relative))
     where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = _hint(there[k], back[k], wo[k], wi[k])
+    if relative[k] > TOLERANCE and "cosine" not in hint and _one_sided(case, p, rng):
+        hint += ": f is symmetric but for a factor that depends on one direction alone"
     return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
+
+
+def _one_sided(case: Case, p: Any, rng: Any) -> bool:
+    """Whether f(a, b)/f(b, a) = g(a)/g(b): then the ratios of three directions multiply to 1."""
+    f = pointwise(case.model, p).f
+    (a, b), (c, _) = directions.random_pairs(rng, 400), directions.random_pairs(rng, 400)
+    round_trip = f(a, b) * f(b, c) * f(c, a) / (f(b, a) * f(c, b) * f(a, c))
+    usable = round_trip[np.isfinite(round_trip)]
+    return len(usable) > 200 and float(np.quantile(np.abs(usable - 1.0), 0.95)) < TOLERANCE
 
 
 def _hint(there: float, back: float, wo: Any, wi: Any) -> str:

@@ -49,7 +49,8 @@ def _drawn(model: Model, ready: Any) -> tuple[Any, ...]:
 def _called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
     """The result, NaN where Python raises what compiled arithmetic does not."""
     try:
-        return function(*arguments)
+        value = function(*arguments)
+        return math.nan if isinstance(value, complex) else value  # a power of a negative number
     except (ZeroDivisionError, OverflowError):
         return math.nan
     except (Exception, SystemExit) as error:
@@ -81,12 +82,12 @@ def returns_weight(model: Model) -> bool:
 
 
 def highest(model: Model, ready: Any, wo: Vec) -> float:
-    """The largest f at the mirror direction and 64 directions in the plane of incidence.
+    """The largest f at the mirror direction, at wo, and 64 directions in the plane of incidence.
 
     An estimate whose total weight is not well above this value may have missed a lobe.
     """
     around = [from_degrees(89.5 * k / 32.0, 180.0 * half) for k in range(32) for half in (0, 1)]
-    found = [_value(model, wo, wi, ready) for wi in (mirrored(wo), *around)]
+    found = [_value(model, wo, wi, ready) for wi in (mirrored(wo), wo, *around)]
     return max((v for v in found if math.isfinite(v)), default=0.0)
 
 
