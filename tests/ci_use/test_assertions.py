@@ -17,6 +17,7 @@ from montecarlo_brdf.testing import (
     as_model,
     assert_checks,
     assert_conserves_energy,
+    assert_converges,
     assert_furnace,
     assert_reciprocal,
     assert_samples_match_pdf,
@@ -115,6 +116,20 @@ def test_samples_against_pdf() -> None:
         )
     with pytest.raises(UserError, match="no sample and pdf"):
         assert_samples_match_pdf(scaled, Params())
+
+
+def rough(wo: Any, wi: Any, p: Any) -> float:
+    """So fast an oscillation that no point set beats independent points; its mean is known."""
+    return (1.0 + math.sin(1e7 * wi[0])) / (2.0 * math.pi)
+
+
+def test_convergence() -> None:
+    few: dict[str, Any] = {"sampler": "uniform", "points": ("sobol",), "samples": 1 << 17}
+    report = assert_converges("lambert", {"albedo": 0.5}, **few)
+    assert [f.quantity for f in report.results[0].findings] == ["slope"]
+    brdf = SimpleNamespace(f=rough, albedo=lambda cos_theta_o, p: 0.5)
+    with pytest.raises(AssertionError, match="slope"):
+        assert_converges(brdf, **few)
 
 
 def test_undecided_is_no_proof() -> None:
