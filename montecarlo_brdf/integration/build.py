@@ -4,6 +4,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import gc
+import sys
 import threading
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from pathlib import Path
@@ -11,11 +12,14 @@ from typing import Any, NamedTuple, Protocol
 
 from montecarlo_brdf import bits, jit
 from montecarlo_brdf.integration import cache, kernel, native, parameters
+from montecarlo_brdf.integration.integrands import PLANE
 from montecarlo_brdf.integration.specialise import Fingerprint, Specialiser
 from montecarlo_brdf.sampling import points as point_sets
 
 Function = Callable[..., Any]
 
+#: What a kernel calls its integrands.
+NAMES = ("FIRST", "SECOND", "THIRD", "FOURTH", "FIFTH")
 #: How everything but the kernel itself is compiled: only ever called from other compiled code.
 INLINE = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
@@ -56,10 +60,17 @@ class Recipe(NamedTuple):
         """Number of parameter sets."""
         return len(self.layout.places)
 
+    def point_set(self) -> Function:
+        """The points; of Sobol's only the coordinates that the integrands use."""
+        if self.points == "sobol" and all(i in PLANE for i in self.integrands):
+            return point_sets.sobol_plane
+        found: Function = getattr(point_sets, self.points)
+        return found
+
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
         content = fingerprint(self.layout)
-        content.add(getattr(point_sets, self.points))
+        content.add(self.point_set())
         for integrand in self.integrands:
             if isinstance(integrand, Wrapped):
                 content.add(integrand.outer)
@@ -78,7 +89,7 @@ class Recipe(NamedTuple):
         special = specialiser()
         integrands = [self._bound(special, i) for i in self.integrands]
         bound = {
-            "POINTS": getattr(point_sets, self.points),
+            "POINTS": self.point_set(),
             "STORE": _store(special, integrands),
             "PARAMETERS": parameters.unpacker(self.layout),
             "BUFFER": _buffer(kernel.BLOCK * self.channels * len(integrands)),
@@ -106,7 +117,8 @@ def fingerprint(layout: parameters.Layout) -> Fingerprint:
 @functools.cache
 def _compiler_source() -> tuple[bytes, ...]:
     """The files that say how code is generated, as opposed to what it computes."""
-    return tuple(Path(str(m.__file__)).read_bytes() for m in (bits, jit, native, parameters))
+    sources = (bits, jit, native, parameters, sys.modules[__name__])
+    return tuple(Path(str(m.__file__)).read_bytes() for m in sources)
 
 
 _loaded: dict[str, native.NativeKernel] = {}
@@ -168,11 +180,12 @@ def specialiser() -> Specialiser:
 
 
 def _store(special: Specialiser, integrands: list[Any]) -> Any:
-    """A chain that evaluates each integrand into its own slot."""
-    store = special.bind(kernel.store_last, {"INTEGRAND": integrands[-1]})
-    for integrand in reversed(integrands[:-1]):
-        store = special.bind(kernel.store_more, {"INTEGRAND": integrand, "REST": store})
-    return store
+    """A function that evaluates each integrand into its own slot."""
+    if len(integrands) > len(NAMES):
+        raise ValueError(f"{len(integrands)} integrands in one kernel; {len(NAMES)} are allowed")
+    spare = [integrands[0]] * (len(NAMES) - len(integrands))  # typed, never called
+    bound = dict(zip(NAMES, integrands + spare, strict=True))
+    return special.bind(kernel.store, {**bound, "SLOTS": len(integrands)})
 
 
 def _buffer(size: int) -> Any:

@@ -175,3 +175,26 @@ def radiance_weighted(u: Any, fixed: Any, p: Any) -> float:
     if wi[2] <= 0.0:
         return 0.0
     return wi[3] * SKY((wi[0], wi[1], wi[2]))
+
+
+#: integrands that use the coordinates 0, 1 and 4 of a point only
+PLANE = frozenset(
+    {
+        albedo_uniform,
+        albedo_cosine,
+        albedo_own,
+        albedo_weighted,
+        reverse_uniform,
+        reverse_cosine,
+        reverse_own,
+        second_uniform,
+        second_cosine,
+        rejected_own,
+        hemisphere_uniform,
+        hemisphere_cosine,
+        radiance_uniform,
+        radiance_cosine,
+        radiance_own,
+        radiance_weighted,
+    }
+)

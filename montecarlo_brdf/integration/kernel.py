@@ -19,14 +19,16 @@ QUERY = 4
 STATE = 4
 
 POINTS: Any = None
-INTEGRAND: Any = None
 STORE: Any = None
-REST: Any = None
+FIRST: Any = None
+SECOND: Any = None
+THIRD: Any = None
+FOURTH: Any = None
+FIFTH: Any = None
 PARAMETERS: Any = None
 BUFFER: Any = None
 CHANNELS = 1  # parameter sets
 SLOTS = 1  # integrands
-
 
 
 def moments(ints: Any, reals: Any, out: Any) -> None:
@@ -54,15 +56,21 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
             i += m
 
 
-def store_last(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
-    """Evaluate an integrand into its slot of the block."""
-    x[at] = INTEGRAND(u, query, p)
+def store(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
+    """Evaluate the integrands, each into its slot of the block.
 
-
-def store_more(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
-    """Evaluate an integrand into its slot and the rest into the slots after it."""
-    x[at] = INTEGRAND(u, query, p)
-    REST(u, query, p, x, at + BLOCK)
+    One function for up to five: the compiler drops what SLOTS excludes, and a chain of functions
+    would take it longer.
+    """
+    x[at] = FIRST(u, query, p)
+    if SLOTS > 1:
+        x[at + BLOCK] = SECOND(u, query, p)
+    if SLOTS > 2:
+        x[at + 2 * BLOCK] = THIRD(u, query, p)
+    if SLOTS > 3:
+        x[at + 3 * BLOCK] = FOURTH(u, query, p)
+    if SLOTS > 4:
+        x[at + 4 * BLOCK] = FIFTH(u, query, p)
 
 
 def merge_block(x: Any, start: int, m: int, out: Any, at: int) -> None:

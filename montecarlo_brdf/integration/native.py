@@ -7,13 +7,11 @@ the function raised.
 """
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import functools
-import gc
 import platform
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 from montecarlo_brdf import jit
@@ -79,22 +77,9 @@ def _overload(function: Callable[..., Any]) -> Any:
 
     pointers = (numba.types.CPointer(numba.int64),) + (numba.types.CPointer(numba.float64),) * 2
     options = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, **jit.options()}
-    with _uncollected():
-        dispatcher = numba.njit(numba.void(*pointers), **options)(function)
+    dispatcher = numba.njit(numba.void(*pointers), **options)(function)
     (overload,) = dispatcher.overloads.values()
     return overload
-
-
-@contextlib.contextmanager
-def _uncollected() -> Iterator[None]:
-    """Without garbage collection: a compiler makes many objects and keeps most; 7 % of its time."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
 
 
 def _module(overload: Any, machine: Any) -> Any:

@@ -141,7 +141,7 @@ class Fingerprint:
 
     def _add_code(self, code: types.CodeType) -> None:
         self._text(code.co_name)
-        self._hash.update(code.co_code)
+        self._hash.update(code.co_code + code.co_exceptiontable)
         self.add(code.co_consts)
         self.add(code.co_names)
         self.add(code.co_varnames + code.co_freevars + code.co_cellvars)
@@ -152,7 +152,7 @@ class Fingerprint:
             return
         self._seen[id(function)] = len(self._seen)
         self._add_code(function.__code__)
-        self.add(function.__defaults__)
+        self.add((function.__defaults__, function.__kwdefaults__))
         self.add([cell.cell_contents for cell in function.__closure__ or ()])
         for name, value in references(function, bound).items():
             self._text(name)

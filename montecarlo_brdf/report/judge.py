@@ -57,8 +57,9 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
         spent = level * 2.0**-look
         measured = claim.measure(plan._replace(samples=samples))
         opinions = judged(claim, measured, spent)
-        if any(o.verdict == "fail" for o in opinions):
-            if confirmed(claim, plan._replace(samples=samples), spent):
+        accused = {o.measurement.estimator for o in opinions if o.verdict == "fail"}
+        if accused:
+            if confirmed(claim, plan._replace(samples=samples), spent, accused):
                 break
             opinions = [o._replace(verdict="inconclusive") if o.verdict == "fail" else o for o in opinions]
         elif opinions and all(o.verdict == "pass" for o in opinions):
@@ -78,6 +79,9 @@ def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> l
         half = m.half_width(each)
         verdict = "unfit" if m.unfit else _verdict(claim, m, best, half, each)
         opinions.append(Opinion(m, half, verdict))
+    if claim.expected is None and sum(o.verdict == "pass" for o in opinions) < 2:
+        # one estimator alone agrees with itself
+        opinions = [o._replace(verdict="inconclusive") if o.verdict == "pass" else o for o in opinions]
     if claim.bound == "at most" and best is not None:
         opinions = [o if o.measurement is best or o.verdict == "fail" else _aside(o) for o in opinions]
     return opinions
@@ -108,17 +112,17 @@ def _verdict(
     return beyond(abs(over), slack, claim.tolerance)
 
 
-def confirmed(claim: MeanClaim, plan: Plan, level: float) -> bool:
-    """Whether a fresh stream of another point set with more replicates refutes the claim too."""
+def confirmed(claim: MeanClaim, plan: Plan, level: float, accused: set[str]) -> bool:
+    """Whether one of the `accused` estimators refutes the claim again, on a fresh stream of another
+    point set with more replicates."""
     fresh = plan._replace(
         points="independent" if plan.points != "independent" else "sobol",
         replicates=CONFIRMING_REPLICATES,
         samples=GROWTH * plan.samples,
         seed=plan.seed + FRESH,
-        target_error=None,
-        method="given",
     )
-    return any(o.verdict == "fail" for o in judged(claim, claim.measure(fresh), level))
+    again = judged(claim, claim.measure(fresh), level)
+    return any(o.verdict == "fail" and o.measurement.estimator in accused for o in again)
 
 
 def _finding(
