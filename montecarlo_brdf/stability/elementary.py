@@ -79,7 +79,7 @@ class Rebound(Specialiser):
     def __init__(self, arithmetic: Arithmetic) -> None:
         super().__init__(lambda function: function, twins(arithmetic))
 
-    def clone(self, function: types.FunctionType, bound: Mapping[str, Any]) -> types.FunctionType:
+    def clone(self, function: Callable[..., Any], bound: Mapping[str, Any]) -> types.FunctionType:
         """`function` with every global name it uses replaced by its counterpart."""
         made = super().clone(function, bound)
         made.__globals__.setdefault("max", chosen("gt"))
