@@ -71,7 +71,7 @@ def _check_declared(spec: str, namespace: Mapping[str, Any]) -> None:
         raise ModelError(f"Params of model {spec} must be a NamedTuple of numbers")
     for name, options in (namespace.get("choices") or {}).items():
         if not isinstance(options, Mapping) or not options:
-            raise ModelError(f"choices of model {spec} must give a dictionary of options for {name}")
+            raise ModelError(f"choices of model {spec} needs a dictionary of options for {name}")
     for name, ends in (namespace.get("domain") or {}).items():
         pair = isinstance(ends, list | tuple) and len(ends) == 2
         if not pair or not all(isinstance(e, int | float) for e in ends):
