@@ -6,6 +6,8 @@ next line of Python; inside machine code it ends with that call, or with the pro
 from __future__ import annotations
 
 import ctypes
+import functools
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -46,12 +48,25 @@ class _Work:
 
     def leave(self) -> None:
         """Have the thread end as soon as it can."""
+        _hush()
         identity = ctypes.c_ulong(self.thread.ident or 0)
         ctypes.pythonapi.PyThreadState_SetAsyncExc(identity, ctypes.py_object(Left))
         self.ended.wait(UNWINDING)
 
 
 _left: list[_Work] = []
+
+
+@functools.cache
+def _hush() -> None:
+    """Inside a compiler's callback `Left` cannot be raised: then Python need not print it either."""
+    before = sys.unraisablehook
+
+    def hook(unraisable: Any) -> None:
+        if unraisable.exc_type is not Left:
+            before(unraisable)
+
+    sys.unraisablehook = hook
 
 
 def supervised(function: Callable[[], Any], limit: Limit, grace: float = 0.0) -> bool:
