@@ -59,7 +59,7 @@ _left: list[_Work] = []
 
 @functools.cache
 def _hush() -> None:
-    """Inside a compiler's callback `Left` cannot be raised: then Python need not print it either."""
+    """In a compiler's callback `Left` cannot be raised: Python need not print it either."""
     before = sys.unraisablehook
 
     def hook(unraisable: Any) -> None:
