@@ -2,7 +2,8 @@
 
 int pdf by quadrature in coordinates that follow the lobe, plus the fraction of draws that are
 rejected, is 1; pdf |dw/du1 x dw/du2| = 1 by finite differences where one direction belongs to one
-pair of numbers; a returned weight is f cos/pdf; drawn directions are finite unit vectors with pdf > 0.
+pair of numbers; a returned weight is f cos/pdf; drawn directions are finite unit vectors with
+pdf > 0, which is finite and not negative anywhere. All this also at other azimuths and parameters.
 It cannot see: a density that is wrong in shape where the sampler chooses among lobes (`sampling`
 can).
 """
@@ -14,18 +15,16 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import directions, interiors
+from montecarlo_brdf.checks import drawn, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import (
     Claim,
-    Exact,
     ExactClaim,
     MeanClaim,
     Measurement,
     Reference,
     Skip,
 )
-from montecarlo_brdf.checks.hints import shape_named
 from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
 from montecarlo_brdf.checks.truth import lobe_scale
 from montecarlo_brdf.integration.estimators import Plan, estimates
@@ -33,15 +32,9 @@ from montecarlo_brdf.integration.estimators import Plan, estimates
 NAME = "pdf"
 QUESTION = "does the pdf integrate to 1, is it the sampler's Jacobian, is the weight f cos/pdf?"
 PROPERTY = "pdf"
-STEP = 1e-5
-MARGIN = 2.0**-10  # keeps finite differences away from the poles of u, whose error is (h/u)^2/8
-POINTS = 4096
 JACOBIAN_TOLERANCE = 3e-3
 #: of the mass; the edge of the rejected region limits how fast the rejected fraction converges
 MASS_TOLERANCE = 5e-4
-#: the share of points that may lie on seams of the map, where differences do not exist
-SEAMS = 0.005
-UNIT_TOLERANCE = 1e-6
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -50,28 +43,28 @@ def claims(case: Case) -> Iterator[Claim]:
         yield Skip("pdf", f"model {case.model.name} has no sampler")
         return
     for theta in case.theta_o_deg:
-        yield _claim(case, theta, "drawn directions at fault", 0.0, _faults)
+        yield _claim(case, theta, "drawn directions at fault", 0.0, drawn.faults)
         if case.model.pdf is not None:
             yield _normalisation(case, theta)
             yield from _pointwise(case, theta)
     for other, theta in interiors.elsewhere(case):
-        yield _claim(other, theta, "drawn directions at fault", 0.0, _faults)
+        yield _claim(other, theta, "drawn directions at fault", 0.0, drawn.faults)
         if case.model.pdf is not None:
             if resolved(other, theta):
                 yield _normalisation(other, theta)
             yield from _pointwise(other, theta)
     if case.model.pdf is not None:
-        yield _claim(case, None, "values of pdf at fault", 0.0, _values)
+        yield _claim(case, None, "values of pdf at fault", 0.0, drawn.values)
 
 
 def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
     """What holds draw by draw."""
-    if chooses(case, theta):
+    if drawn.chooses(case, theta):
         yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
     else:
-        yield _claim(case, theta, "|pdf Jacobian - 1|", JACOBIAN_TOLERANCE, _jacobian)
-    if np.isfinite(_drawn(case, theta)[2]).any():
-        yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", UNIT_TOLERANCE, _weight)
+        yield _claim(case, theta, "|pdf Jacobian - 1|", JACOBIAN_TOLERANCE, drawn.jacobian)
+    if np.isfinite(drawn.draws(case, theta)[2]).any():
+        yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", drawn.UNIT_TOLERANCE, drawn.weight)
 
 
 def resolved(case: Case, theta: float) -> bool:
@@ -95,63 +88,6 @@ def _claim(case: Case, theta: Any, quantity: str, tolerance: float, evaluate: An
 def _where(case: Case, theta: Any) -> dict[str, Any]:
     places = {} if theta is None else case.where(theta_o_deg=theta)
     return {**places, **interiors.changed(case, case.one)}
-
-
-def _values(case: Case, _: Any) -> Exact:
-    """How often pdf is negative or not finite, also where it is not drawn but asked by others."""
-    count, points, where, hint = 0, 0, {}, None
-    for k, p in enumerate(interiors.sets(case, 3)):
-        wo, wi = directions.random_pairs(case.random(NAME, "values", k))
-        density = pointwise(case.model, p).pdf(wo, wi)
-        bad = ~(np.isfinite(density) & (density >= 0.0))
-        if bad.any() and not count:
-            j = int(np.argmax(bad))
-            where = {**interiors.changed(case, p), **directions.place(wo[j], wi[j])}
-            hint = f"pdf is {density[j]:.6g}: other samplers ask for it anywhere"
-        count, points = count + int(bad.sum()), points + len(bad)
-    return Exact(float(count), 0.0, where, points, hint=hint)
-
-
-def _drawn(case: Case, theta: float, n: int = POINTS) -> tuple[Any, Any, Any]:
-    """(u, directions, weights) of n draws."""
-    u = case.random(NAME, theta).random((n, 3)) * (1.0 - 2.0 * MARGIN) + MARGIN
-    return u, *pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
-
-
-def chooses(case: Case, theta: float) -> bool:
-    """Whether u[2] changes the drawn direction."""
-    u, w, _ = _drawn(case, theta, 256)
-    u[:, 2] = 1.0 - u[:, 2]
-    again, _ = pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
-    return not np.allclose(w, again, rtol=0.0, atol=1e-12, equal_nan=True)
-
-
-def _faults(case: Case, theta: float) -> Exact:
-    """How many draws are not finite, not of unit length, or have no density."""
-    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    rng = case.random(NAME, "edges", theta)
-    u = np.concatenate([_edges(), rng.random((POINTS, 3))])
-    w, _ = functions.sample(wo, u)
-    kinds = {"not finite": ~np.isfinite(w).all(axis=1)}
-    length = np.sqrt(np.sum(np.where(np.isfinite(w), w, 0.0) ** 2, axis=1))
-    above = ~kinds["not finite"] & (w[:, 2] > 0.0)
-    kinds["not of unit length"] = above & (np.abs(length - 1.0) > UNIT_TOLERANCE)
-    if case.model.pdf is not None:
-        density = functions.pdf(wo, np.where(above[:, None], w, wo))
-        kinds["with a pdf that is not positive and finite"] = above & ~(
-            np.isfinite(density) & (density > 0.0)
-        )
-    counts = {name: int(bad.sum()) for name, bad in kinds.items()}
-    hint = ", ".join(f"{n} draws {name}" for name, n in counts.items() if n)
-    first = next((int(np.argmax(bad)) for bad in kinds.values() if bad.any()), 0)
-    hint = f"{hint} (first at u = {tuple(float(v) for v in u[first])})" if hint else None
-    return Exact(float(sum(counts.values())), points=len(u), hint=hint)
-
-
-def _edges() -> Any:
-    """Numbers next to 0 and 1."""
-    ends = (0.0, 5e-324, 2.0**-53, 0.5, 1.0 - 2.0**-53)
-    return np.array([(a, b, 0.5) for a in ends for b in ends])
 
 
 def _normalisation(case: Case, theta: float) -> MeanClaim:
@@ -189,44 +125,3 @@ def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
         mean=rejected.mean + integral.value, stderr=max(rejected.stderr, integral.error)
     )
     return [Measurement("quadrature", whole, unfit)]
-
-
-def _jacobian(case: Case, theta: float) -> Exact:
-    """The largest |pdf |dw/du1 x dw/du2| - 1| away from seams, by central differences."""
-    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    u, w, _ = _drawn(case, theta)
-    sides = []
-    for axis in (0, 1):
-        step = np.zeros(3)
-        step[axis] = STEP
-        ahead, behind = functions.sample(wo, u + step)[0], functions.sample(wo, u - step)[0]
-        sides.append(((ahead - behind) / (2.0 * STEP), np.minimum(ahead[:, 2], behind[:, 2])))
-    area = np.sqrt(np.sum(np.cross(sides[0][0], sides[1][0]) ** 2, axis=1))
-    above = (w[:, 2] > 1e-3) & (np.minimum(sides[0][1], sides[1][1]) > 0.0)
-    if above.sum() < 100:
-        return Exact(0.0, points=0, note="hardly any draw lies above the horizon")
-    ratio = functions.pdf(wo, w[above]) * area[above]
-    value = float(np.quantile(np.abs(ratio - 1.0), 1.0 - SEAMS))
-    return Exact(value, points=int(above.sum()), hint=_ratio(ratio, wo, w[above]))
-
-
-def _ratio(ratio: Any, wo: Any, w: Any) -> str:
-    """What pdf times Jacobian is, by its shape where that has a name."""
-    named = shape_named(ratio, np.broadcast_to(wo, w.shape), w)
-    if named:
-        return f"pdf / density of the draws = {named}"
-    low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
-    return f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
-
-
-def _weight(case: Case, theta: float) -> Exact:
-    """The largest relative difference of the returned weight from f cos/pdf."""
-    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    _, w, weight = _drawn(case, theta)
-    above = (w[:, 2] > 0.0) & np.isfinite(weight)
-    expected = functions.f(wo, w[above]) * w[above][:, 2] / functions.pdf(wo, w[above])
-    ratio = weight[above] / np.where(expected == 0.0, 1e-300, expected)
-    k = int(np.argmax(np.abs(ratio - 1.0)))
-    named = shape_named(ratio, np.broadcast_to(wo, w[above].shape), w[above])
-    hint = f"weight/(f cos/pdf) = {named or f'{float(np.median(ratio)):.6g} in the middle'}"
-    return Exact(float(abs(ratio[k] - 1.0)), points=int(above.sum()), hint=hint)

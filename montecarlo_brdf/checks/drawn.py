@@ -1,0 +1,122 @@
+"""What single draws of a sampler say: faults, the Jacobian of the map, the weight, pdf anywhere.
+
+A draw is a direction that belongs to numbers u; where it belongs to one pair of them only, the area
+that a small square of u covers is 1/pdf.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.checks import directions, interiors
+from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.checks.claim import Exact
+from montecarlo_brdf.checks.hints import shape_named
+
+NAME = "pdf"  # whose streams these are
+STEP = 1e-5
+MARGIN = 2.0**-10  # keeps finite differences away from the poles of u, whose error is (h/u)^2/8
+POINTS = 4096
+#: the share of points that may lie on seams of the map, where differences do not exist
+SEAMS = 0.005
+UNIT_TOLERANCE = 1e-6
+
+
+def values(case: Case, _: Any) -> Exact:
+    """How often pdf is negative or not finite, also where it is not drawn but asked by others."""
+    count, points, where, hint = 0, 0, {}, None
+    for k, p in enumerate(interiors.sets(case, 3)):
+        wo, wi = directions.random_pairs(case.random(NAME, "values", k))
+        density = pointwise(case.model, p).pdf(wo, wi)
+        bad = ~(np.isfinite(density) & (density >= 0.0))
+        if bad.any() and not count:
+            j = int(np.argmax(bad))
+            where = {**interiors.changed(case, p), **directions.place(wo[j], wi[j])}
+            hint = f"pdf is {density[j]:.6g}: other samplers ask for it anywhere"
+        count, points = count + int(bad.sum()), points + len(bad)
+    return Exact(float(count), 0.0, where, points, hint=hint)
+
+
+def draws(case: Case, theta: float, n: int = POINTS) -> tuple[Any, Any, Any]:
+    """(u, directions, weights) of n draws."""
+    u = case.random(NAME, theta).random((n, 3)) * (1.0 - 2.0 * MARGIN) + MARGIN
+    return u, *pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
+
+
+def chooses(case: Case, theta: float) -> bool:
+    """Whether u[2] changes the drawn direction."""
+    u, w, _ = draws(case, theta, 256)
+    u[:, 2] = 1.0 - u[:, 2]
+    again, _ = pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
+    return not np.allclose(w, again, rtol=0.0, atol=1e-12, equal_nan=True)
+
+
+def faults(case: Case, theta: float) -> Exact:
+    """How many draws are not finite, not of unit length, or have no density."""
+    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
+    rng = case.random(NAME, "edges", theta)
+    u = np.concatenate([_edges(), rng.random((POINTS, 3))])
+    w, _ = functions.sample(wo, u)
+    kinds = {"not finite": ~np.isfinite(w).all(axis=1)}
+    length = np.sqrt(np.sum(np.where(np.isfinite(w), w, 0.0) ** 2, axis=1))
+    above = ~kinds["not finite"] & (w[:, 2] > 0.0)
+    kinds["not of unit length"] = above & (np.abs(length - 1.0) > UNIT_TOLERANCE)
+    if case.model.pdf is not None:
+        density = functions.pdf(wo, np.where(above[:, None], w, wo))
+        kinds["with a pdf that is not positive and finite"] = above & ~(
+            np.isfinite(density) & (density > 0.0)
+        )
+    counts = {name: int(bad.sum()) for name, bad in kinds.items()}
+    said = ", ".join(f"{n} draws {name}" for name, n in counts.items() if n)
+    first = next((int(np.argmax(bad)) for bad in kinds.values() if bad.any()), 0)
+    hint = f"{said} (first at u = {tuple(float(v) for v in u[first])})" if said else None
+    return Exact(float(sum(counts.values())), points=len(u), hint=hint)
+
+
+def _edges() -> Any:
+    """Numbers next to 0 and 1."""
+    ends = (0.0, 5e-324, 2.0**-53, 0.5, 1.0 - 2.0**-53)
+    return np.array([(a, b, 0.5) for a in ends for b in ends])
+
+
+def jacobian(case: Case, theta: float) -> Exact:
+    """The largest |pdf |dw/du1 x dw/du2| - 1| away from seams, by central differences."""
+    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
+    u, w, _ = draws(case, theta)
+    sides = []
+    for axis in (0, 1):
+        step = np.zeros(3)
+        step[axis] = STEP
+        ahead, behind = functions.sample(wo, u + step)[0], functions.sample(wo, u - step)[0]
+        sides.append(((ahead - behind) / (2.0 * STEP), np.minimum(ahead[:, 2], behind[:, 2])))
+    area = np.sqrt(np.sum(np.cross(sides[0][0], sides[1][0]) ** 2, axis=1))
+    above = (w[:, 2] > 1e-3) & (np.minimum(sides[0][1], sides[1][1]) > 0.0)
+    if above.sum() < 100:
+        return Exact(0.0, points=0, note="hardly any draw lies above the horizon")
+    ratio = functions.pdf(wo, w[above]) * area[above]
+    value = float(np.quantile(np.abs(ratio - 1.0), 1.0 - SEAMS))
+    return Exact(value, points=int(above.sum()), hint=_ratio(ratio, wo, w[above]))
+
+
+def _ratio(ratio: Any, wo: Any, w: Any) -> str:
+    """What pdf times Jacobian is, by its shape where that has a name."""
+    named = shape_named(ratio, np.broadcast_to(wo, w.shape), w)
+    if named:
+        return f"pdf / density of the draws = {named}"
+    low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
+    return f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
+
+
+def weight(case: Case, theta: float) -> Exact:
+    """The largest relative difference of the returned weight from f cos/pdf."""
+    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
+    _, w, weight = draws(case, theta)
+    above = (w[:, 2] > 0.0) & np.isfinite(weight)
+    expected = functions.f(wo, w[above]) * w[above][:, 2] / functions.pdf(wo, w[above])
+    ratio = weight[above] / np.where(expected == 0.0, 1e-300, expected)
+    k = int(np.argmax(np.abs(ratio - 1.0)))
+    named = shape_named(ratio, np.broadcast_to(wo, w[above].shape), w[above])
+    hint = f"weight/(f cos/pdf) = {named or f'{float(np.median(ratio)):.6g} in the middle'}"
+    return Exact(float(abs(ratio[k] - 1.0)), points=int(above.sum()), hint=hint)
