@@ -14,13 +14,25 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import fitness
+from montecarlo_brdf.checks import fitness, truth
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import AGREEMENT_TOLERANCE, Claim, MeanClaim, Measurement, Reference, Skip
-from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
-from montecarlo_brdf.checks.truth import lobe_scale
+from montecarlo_brdf.checks.claim import (
+    AGREEMENT_TOLERANCE,
+    Claim,
+    MeanClaim,
+    Measurement,
+    Reference,
+    Skip,
+)
+from montecarlo_brdf.checks.lobe_coordinates import integrate
 from montecarlo_brdf.integration import integrands
-from montecarlo_brdf.integration.estimators import Plan, Subject, evaluate, integrand_name, samplers_of
+from montecarlo_brdf.integration.estimators import (
+    Plan,
+    Subject,
+    evaluate,
+    integrand_name,
+    samplers_of,
+)
 
 NAME = "radiance"
 QUESTION = "does it hold under light that is not constant?"
@@ -68,7 +80,7 @@ def _expected(case: Case, theta: float, sky: Any) -> Reference | None:
     def integrand(wi: Any) -> Any:
         return functions.f(wo, wi) * wi[:, 2] * sky(wi.T)
 
-    found = integrate(integrand, Coordinates(wo, lobe_scale(case.model, case.one, wo)))
+    found = integrate(integrand, truth.coordinates(case.model, case.one, wo))
     if not found.error <= 0.25 * TOLERANCE * abs(found.value):
         return None
     return Reference(found.value, found.error, "quadrature of the same f", "lobe coordinates")

@@ -15,8 +15,8 @@ import numpy as np
 
 from montecarlo_brdf.checks import interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.lobe_coordinates import Coordinates, grid
-from montecarlo_brdf.checks.truth import lobe_scale
+from montecarlo_brdf.checks.lobe_coordinates import grid
+from montecarlo_brdf.checks.truth import coordinates
 from montecarlo_brdf.integration import integrands
 from montecarlo_brdf.integration.estimators import (
     Plan,
@@ -101,7 +101,7 @@ def _quadrature(space: Space, quantity: str, at: At) -> float:
     p, w = space.parameters(at), np.array(fixed)
     f = pointwise(case.model, p).f
     x, b, weight = NODES
-    v, jacobian = Coordinates(w, lobe_scale(case.model, p, w)).directions(x, b)
+    v, jacobian = coordinates(case.model, p, w).directions(x, b)
     values = f(v, w) if quantity == "reverse" else f(w, v)
     total = float(np.sum(weight * jacobian * v[:, 2] * values))
     return total if math.isfinite(total) else math.inf

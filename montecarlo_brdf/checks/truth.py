@@ -56,13 +56,25 @@ def quadrature(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> tup
     import numpy as np
 
     from montecarlo_brdf.checks.case import pointwise
-    from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
+    from montecarlo_brdf.checks.lobe_coordinates import integrate
 
     w = np.array(fixed)
     f = pointwise(model, one).f
-    coordinates = Coordinates(w, lobe_scale(model, one, w))
-    found = integrate(lambda v: (f(v, w) if reverse else f(w, v)) * v[:, 2], coordinates)
+    values = (lambda v: f(v, w)) if reverse else (lambda v: f(w, v))
+    found = integrate(lambda v: values(v) * v[:, 2], coordinates(model, one, w))
     return found.value, found.error
+
+
+def coordinates(model: Model, one: Any, wo: Any) -> Any:
+    """Coordinates that follow the lobe, at the mirror direction or, where f is larger, at wo."""
+    from montecarlo_brdf.checks.case import pointwise
+    from montecarlo_brdf.checks.directions import MIRROR
+    from montecarlo_brdf.checks.lobe_coordinates import Coordinates
+
+    mirror, f = wo * MIRROR, pointwise(model, one).f
+    if model.sample is None and f(wo, wo)[0] > 2.0 * f(wo, mirror)[0]:
+        return Coordinates(mirror, _probed_scale(model, one, wo, mirror))
+    return Coordinates(wo, lobe_scale(model, one, wo))
 
 
 def deterministic(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> Measurement:
@@ -81,22 +93,22 @@ def lobe_scale(model: Model, one: Any, wo: Any) -> float:
     from montecarlo_brdf.checks.lobe_coordinates import scale_of
 
     if model.sample is None:
-        return _probed_scale(model, one, wo)
+        return _probed_scale(model, one, wo, wo)
     u = np.random.default_rng(PILOT).random((PILOT, 3))
     drawn, _ = pointwise(model, one).sample(wo, u)
     drawn = drawn[np.isfinite(drawn).all(axis=1)]
     return scale_of(wo, drawn[drawn[:, 2] > 0.0])
 
 
-def _probed_scale(model: Model, one: Any, wo: Any) -> float:
-    """The slope within which f cos has a tenth of its weight, from a few lines through the mirror
-    direction: what draws would tell if there were a sampler."""
+def _probed_scale(model: Model, one: Any, wo: Any, centre: Any) -> float:
+    """The slope within which f cos has a tenth of its weight, from two lines through the mirror
+    direction of `centre`: what draws would tell if there were a sampler."""
     import numpy as np
 
     from montecarlo_brdf.checks.case import pointwise
     from montecarlo_brdf.checks.lobe_coordinates import Coordinates
 
-    finest = Coordinates(wo, SHARPEST)
+    finest = Coordinates(centre, SHARPEST)
     x, b = (g.ravel() for g in np.meshgrid((np.arange(96) + 0.5) / 96, (0.2, 0.7), indexing="ij"))
     wi, jacobian = finest.directions(x, b)
     weight = np.abs(pointwise(model, one).f(wo, wi)) * wi[:, 2] * jacobian
@@ -104,7 +116,7 @@ def _probed_scale(model: Model, one: Any, wo: Any) -> float:
     if not share[-1] > 0.0:
         return 1.0
     k = int(np.searchsorted(share, 0.1 * share[-1]))
-    h = wi[k] + wo
+    h = wi[k] + centre
     return float(max(0.3 * np.hypot(h[0], h[1]) / h[2], SHARPEST))
 
 

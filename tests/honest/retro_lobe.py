@@ -44,7 +44,7 @@ def f(wo, wi, p):
 
 
 def sample(wo, u, p):
-    cos = u[0] ** (1.0 / (p.n + 1.0))
+    cos = (1.0 - u[0]) ** (1.0 / (p.n + 1.0))
     sin = math.sqrt(max(0.0, 1.0 - cos * cos))
     phi = 2.0 * math.pi * u[1]
     return around(axis_of(wo), sin * math.cos(phi), sin * math.sin(phi), cos)

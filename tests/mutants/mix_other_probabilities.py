@@ -52,7 +52,7 @@ def sample(wo, u, p):
     if u[2] < 0.5:
         r = math.sqrt(u[0])
         return r * math.cos(phi), r * math.sin(phi), math.sqrt(1.0 - u[0])
-    cos = u[0] ** (1.0 / (p.n + 1.0))
+    cos = (1.0 - u[0]) ** (1.0 / (p.n + 1.0))
     sin = math.sqrt(max(0.0, 1.0 - cos * cos))
     return around(mirror(wo), sin * math.cos(phi), sin * math.sin(phi), cos)
 
