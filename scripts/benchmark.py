@@ -9,7 +9,7 @@ import os
 import sys
 from pathlib import Path
 
-from montecarlo_brdf.cli import run
+from montecarlo_brdf.cli import execute as run
 
 RESULTS = Path(__file__).parent / "results"
 

@@ -16,7 +16,7 @@ import shlex
 from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf.cli import run
+from montecarlo_brdf.cli import execute as run
 
 TARGET = Path(__file__).parent.parent / "docs" / "physics.md"
 CHECKS = ["--check", "energy,reciprocity,positivity", "--format", "json"]

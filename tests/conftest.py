@@ -11,7 +11,7 @@ from typing import NamedTuple
 import pytest
 from hypothesis import settings
 
-from montecarlo_brdf.cli import run
+from montecarlo_brdf.cli import execute as run
 
 #: No deadlines: a busy machine is no error. In CI the same cases every time.
 settings.register_profile("ours", deadline=None, derandomize=bool(os.environ.get("CI")))
@@ -29,7 +29,10 @@ class Outcome(NamedTuple):
 @pytest.fixture(scope="session", autouse=True)
 def kernel_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """An empty cache: a test session depends on nothing that was compiled before it."""
-    folder = tmp_path_factory.mktemp("kernels")
+    root = tmp_path_factory.getbasetemp()
+    shared = root.parent if os.environ.get("PYTEST_XDIST_WORKER") else root  # by all workers
+    folder = shared / "kernels"
+    folder.mkdir(exist_ok=True)
     os.environ["BRDF_CHECK_CACHE_DIR"] = str(folder)
     return folder
 

@@ -136,7 +136,7 @@ def test_completion_knows_commands_and_models(process: Command) -> None:
 
 IMPORTED = """
 import sys
-from montecarlo_brdf.cli import run
+from montecarlo_brdf.cli import execute as run
 code = run(sys.argv[1:])
 print(*[m for m in ("numba", "scipy", "matplotlib", "numpy", "rich") if m in sys.modules])
 sys.exit(code)

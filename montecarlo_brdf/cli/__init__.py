@@ -73,7 +73,7 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a locale without the degree sign is no error
             stream.reconfigure(errors="replace")
-    code = run(sys.argv[1:])
+    code = execute(sys.argv[1:])
     _leave_at_once(code)
     sys.exit(code)
 
@@ -88,7 +88,7 @@ def _leave_at_once(code: int) -> None:
         os._exit(code)
 
 
-def run(arguments: list[str]) -> int:
+def execute(arguments: list[str]) -> int:
     """Exit code of a command line; every error becomes one sentence on stderr."""
     try:
         code = commands.main(arguments, prog_name="brdf-check", standalone_mode=False)

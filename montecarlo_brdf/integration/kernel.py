@@ -94,6 +94,6 @@ def merge_block(x: Any, start: int, m: int, out: Any, at: int) -> None:
     shift = origin + total / m - out[at + 1]
     out[at] = merged
     out[at + 1] += shift * (m / merged)
-    out[at + 2] += (squares - total * total / m) + shift * shift * (count * m / merged)
+    out[at + 2] += (squares - total * total / m) + shift * (shift * (count * m / merged))
     out[at + 3] = double_of(largest)
 

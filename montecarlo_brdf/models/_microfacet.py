@@ -59,7 +59,7 @@ def ggx_reflection(h: Vec, wo: Vec, wi: Vec, alpha: float) -> float:
     q = a2 * z * z + t2
     masked = wi[2] * stretched(wo, alpha) + wo[2] * stretched(wi, alpha)
     r = 1.0 / (q * masked)
-    return 0.5 / math.pi * a2 * l2 * l2 * (r * r * masked)
+    return 0.5 / math.pi * (l2 * l2) * (a2 * (r * masked)) * r  # in this order in range of single
 
 
 def schlick(h: Vec, f0: float) -> float:

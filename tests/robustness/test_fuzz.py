@@ -13,7 +13,7 @@ import fuzzing
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from montecarlo_brdf.cli import run
+from montecarlo_brdf.cli import execute as run
 
 QUIET = settings(
     deadline=None,
