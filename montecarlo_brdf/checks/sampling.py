@@ -90,6 +90,20 @@ class Cells:
         marginal = np.concatenate([[0.0], np.cumsum(columns[-1])])
         return marginal, columns, float(marginal[-1])
 
+    @functools.cached_property
+    def error(self) -> float:
+        """Distance between the cells' probabilities and those by another grid, at random in each
+        square: what a density with steps leaves unresolved."""
+        nx, nb = self.size
+        jitter = np.random.default_rng(0).random((2, nx, nb))
+        x = (np.arange(nx)[:, None] + jitter[0]) / nx
+        b = (np.arange(nb)[None, :] + jitter[1]) / nb
+        wi, jacobian = self.coordinates.directions(x.ravel(), b.ravel())
+        density = jacobian * self.functions.pdf(self.wo, wi) / (nx * nb)
+        found = np.bincount(self.index(wi), weights=density, minlength=ROWS * COLUMNS)
+        each = self.tables[2] / (ROWS * COLUMNS)
+        return float(np.sqrt(np.sum((found - each) ** 2 / each)))
+
     def index(self, w: Any) -> Any:
         """The cell of each direction above the horizon: equal probability under pdf/mass."""
         marginal, columns, mass = self.tables
@@ -122,7 +136,10 @@ def _fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fi
         counts[-1] += np.count_nonzero(~above)
     expected = np.full(counts.shape, mass / (ROWS * COLUMNS))
     expected[-1] = max(1.0 - mass, 0.0)
-    return judged(counts, expected, level)._replace(hint=_hint(counts, expected))
+    found = judged(counts, expected, level)._replace(hint=_hint(counts, expected))
+    if found.p_value >= level:
+        return found
+    return found._replace(distance=max(0.0, found.distance - 2.0 * cells.error))
 
 
 def _hint(counts: Any, expected: Any) -> str:
@@ -143,7 +160,7 @@ def _hint(counts: Any, expected: Any) -> str:
 
 
 def judged(counts: Any, probability: Any, level: float) -> Fit:
-    """Distance, its upper bound and the p-value of counts; a last cell hardly expected is merged."""
+    """Distance, upper bound and p-value of counts; a last cell hardly expected is merged."""
     from scipy.special import chdtrc, ndtri
 
     n = float(counts.sum())
