@@ -2,11 +2,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from montecarlo_brdf.cli import _options
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.report.findings import Report
 from montecarlo_brdf.cli._values import Number
 
 EPILOG = """\b
@@ -15,6 +18,7 @@ Examples:
   brdf-check furnace --model lambert_unnormalised -p c=0.5
   brdf-check furnace --model my_brdf.py --theta-o 0:85:18 --plot albedo.png
   brdf-check furnace --model lambert -p albedo=0.9/0.5/0.1 --format json
+  brdf-check furnace --model all
   brdf-check furnace --model ggx -p alpha=0.05 --target-error 1e-6
 """
 
@@ -58,36 +62,56 @@ def command(**options: Any) -> int:
     Two claims per angle: the albedo A equals its reference within the tolerance, and A <= 1. Each is
     estimated by every sampler that can be trusted for the case.
     """
-    from montecarlo_brdf import loading, verify
-    from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.cli._values import number, numbers, parameter_sets
     from montecarlo_brdf.report.plots import kind_of, plot
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])
     if options["plot"]:
         kind_of(options["plot"])
-    model = loading.load(options["spec"])
-    sets = parameter_sets(model, options["assignments"])
-    names = options["sampler"].split(",")
-    with progress(f"furnace {model.name}") as update:
-        report = verify.furnace(
-            model,
-            sets,
-            numbers(options["theta_o"], "theta-o"),
-            phi_o_deg=number(options["phi_o"], "phi-o"),
-            sampler="all" if names == ["all"] else names,
-            points=options["points"],
-            samples=verify.SAMPLES if options["samples"] is None else options["samples"],
-            seed=_options.seed_of(options["seed"]),
-            threads=options["threads"],
-            tolerance=options["tolerance"],
-            target_error=options["target_error"],
-            method=options["method"],
-            progress=update,
-            curve=bool(options["plot"] or options["export_json"]),
-        )
+    report = gather(options)
     if options["plot"]:
         plot(report.to_dict(), options["plot"])
     return _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
+    )
+
+
+def gather(options: dict[str, Any]) -> Report:
+    """One report over all models asked for."""
+    from montecarlo_brdf.cli._jobs import models_of
+    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.report.findings import Report
+
+    specs = models_of(options["spec"])
+    seed = _options.seed_of(options["seed"])
+    reports = []
+    with progress("furnace") as update:
+        for k, spec in enumerate(specs):
+            share = lambda done, k=k: update((k + done) / len(specs))  # noqa: E731
+            reports.append(_one(spec, options, seed, share))
+    results = [result for r in reports for result in r.results]
+    seconds = sum(r.measured["seconds"] for r in reports)
+    return Report("furnace", reports[0].settings, results, {"seconds": seconds})
+
+
+def _one(spec: str, options: dict[str, Any], seed: int, update: Any) -> Report:
+    from montecarlo_brdf import loading, verify
+    from montecarlo_brdf.cli._values import number, numbers, parameter_sets
+
+    model = loading.load(spec)
+    names = options["sampler"].split(",")
+    return verify.furnace(
+        model,
+        parameter_sets(model, options["assignments"]),
+        numbers(options["theta_o"], "theta-o"),
+        phi_o_deg=number(options["phi_o"], "phi-o"),
+        sampler="all" if names == ["all"] else names,
+        points=options["points"],
+        samples=verify.SAMPLES if options["samples"] is None else options["samples"],
+        seed=seed,
+        threads=options["threads"],
+        tolerance=options["tolerance"],
+        target_error=options["target_error"],
+        method=options["method"],
+        progress=update,
+        curve=bool(options["plot"] or options["export_json"]),
     )
