@@ -1,8 +1,8 @@
 """Energy: is ever more reflected than received?
 
 R(wi), all that leaves for light from wi, and A(wo) are searched for their worst over angles up to
-89.9 degrees and over the parameters' ranges (checks.search). The worst is estimated again on a fresh
-stream and judged against 1. It cannot see: a peak narrower than the search.
+89.9 degrees and over the parameters' ranges (checks.search). The worst is estimated again on a
+fresh stream and judged against 1. It cannot see: a peak narrower than the search.
 """
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _cause(space: search.Space, spot: search.Spot, value: search.Value) -> str:
     if theta > 85.0 and spot.value > 1.5:
         return "grows towards grazing: look at masking and at cosines in denominators"
     own = (*spot.at[: 1 + space.turning], *interiors.position(case, case.one).values())
-    if value(own, search.CLIMB) <= 1.0 < spot.value:
+    if value(own, search.CLIMB) <= 1.0 + BOUND_TOLERANCE < spot.value:
         changed = interiors.changed(case, space.parameters(spot.at)).items()
         return "not at the defaults, but with " + ", ".join(f"{k} = {v:.4g}" for k, v in changed)
     return f"most at {theta:.1f} degrees: compare the normalisation, and weights that add up"

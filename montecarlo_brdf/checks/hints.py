@@ -26,8 +26,9 @@ def hint(claim: MeanClaim, value: float) -> str | None:
     """A sentence that names the likely cause of a refuted claim, if the number tells."""
     if not math.isfinite(value):
         return "f is not finite for some direction: look for 1/0 or the root of a negative number"
-    units = dict(claim.unit) or {"1": 1.0}
-    close = CLOSE if claim.bound == "equal" else 5.0 * CLOSE  # the search for the worst is coarse
+    units, close = dict(claim.unit), CLOSE
+    if claim.bound == "at most":  # what should reflect 1; a search for the worst is coarse
+        units, close = {"1": 1.0, **units}, 5.0 * CLOSE
     if claim.expected is not None and claim.bound == "equal" and claim.expected.value:
         units = {"expected": claim.expected.value, **units}
     for name, unit in units.items():
