@@ -1,14 +1,16 @@
 """Fixed-width integer words that mean the same in plain Python and in compiled kernels.
 
 Plain Python integers have no width and numba's have no masks, so code on words is written with
-`u64`, `u32`, `reverse32`, `word_of`, `double_of`: ordinary functions here, machine instructions in a
-kernel (`compiled_twins`).
+`u64`, `u32`, `reverse32`, `word_of`, `double_of`: ordinary functions here, machine instructions in
+a kernel (`compiled_twins`).
 """
+
 from __future__ import annotations
 
 import ctypes
 import struct
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 
 GOLDEN = 0x9E3779B97F4A7C15  # 2^64 / golden ratio, odd: steps that never repeat within 2^64
 

@@ -1,4 +1,6 @@
-"""What goes wrong, as one clear sentence with an exit code. A crash must not look like a verdict."""
+"""What goes wrong, as one clear sentence with an exit code. A crash must not look like a
+verdict."""
+
 from __future__ import annotations
 
 import difflib

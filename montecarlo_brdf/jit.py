@@ -5,7 +5,8 @@ and nowhere at import time.
 """
 from __future__ import annotations
 
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 
 #: Reassociation is what lets a sum vectorise; `nnan` and `ninf` are left out on purpose: with them
 #: `isfinite(1/0)` is True and a NaN in a BRDF goes unseen.

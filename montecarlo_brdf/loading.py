@@ -1,4 +1,5 @@
 """Models by name (a file in montecarlo_brdf/models) or by path (a user's own file)."""
+
 from __future__ import annotations
 
 import contextlib
@@ -23,8 +24,8 @@ def names() -> list[str]:
 
 
 def load(spec: str, **picks: str) -> Model:
-    """The model `spec`: a built-in name, `my_brdf.py`, `my_brdf.py:name`, or a weighted sum of them,
-    "0.6 lambert + 0.4 ggx".
+    """The model `spec`: a built-in name, `my_brdf.py`, `my_brdf.py:name`, or a weighted sum of
+    them, "0.6 lambert + 0.4 ggx".
 
     picks: one option per choice the model offers, e.g. norm="n+8".
     Raises UserError for an unknown name or a missing file, ModelError if the file does not load.
@@ -114,7 +115,7 @@ def _member(spec: str, namespace: Mapping[str, Any], name: str) -> Mapping[str, 
     value = namespace.get(name)
     if isinstance(value, type):
         inside = {k: getattr(value, k) for k in dir(value) if not k.startswith("__")}
-        return {**namespace, **{k: None for k in ("sample", "pdf")}, **inside}
+        return {**namespace, **dict.fromkeys(("sample", "pdf")), **inside}
     if not callable(value):
         file = spec.rpartition(":")[0]
         raise UserError(f"{file} has " + unknown("model", name, members(namespace)))

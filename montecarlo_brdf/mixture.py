@@ -4,6 +4,7 @@ Sampling picks one term by u[2], in proportion to the weights, with the full mix
 are named after their model, "ggx.alpha"; weights are parameters too, "ggx.weight". That the weights
 add up to at most 1 is a claim about the surface, not a condition for evaluating it.
 """
+
 from __future__ import annotations
 
 import math
@@ -65,7 +66,8 @@ def f_last(wo: Any, wi: Any, p: Any) -> float:
 
 
 def sample(wo: Any, u: Any, p: Any) -> Any:
-    """This term with probability `choose`, else one after it; u[2] is stretched to be used again."""
+    """This term with probability `choose`, else one after it; u[2] is stretched to be used
+    again."""
     if u[2] < p.choose:
         w = FIRST(wo, (u[0], u[1], u[2] / p.choose), p.first)
         return w[0], w[1], w[2]
@@ -115,7 +117,9 @@ def _weight(text: str | None, spec: str) -> float:
     except ValueError:
         value = math.nan
     if not (math.isfinite(value) and value >= 0.0):
-        raise UserError(f"the weights of a mixture are numbers of at least 0, not {text!r} in {spec!r}")
+        raise UserError(
+            f"the weights of a mixture are numbers of at least 0, not {text!r} in {spec!r}"
+        )
     return value
 
 
@@ -142,7 +146,8 @@ def _assembled(terms: tuple[Term, ...], name: str) -> Model:
     samplers = [(t.model.sample, t.model.pdf) if t.model.pdf else (None, None) for t in terms]
     return Model(
         name=name,
-        doc=f"{name}: a mixture, f = " + " + ".join(f"{t.prefix}.weight f_{t.prefix}" for t in terms),
+        doc=f"{name}: a mixture, f = "
+        + " + ".join(f"{t.prefix}.weight f_{t.prefix}" for t in terms),
         f=_chain([t.model.f for t in terms], f, f_last),
         Params=_params(terms, picks),
         sample=_chain([s or cosine_sample for s, _ in samplers], sample, sample_last),

@@ -5,6 +5,7 @@ else has a default: `Params`, `sample`, `pdf`, `prepare`, `domain`, `choices`, `
 `verified`, `lossless`, `limits`, `albedo`, `same_as`, `scales_with`, `isotropic`, `lobe`, `kinks`.
 The names and their meaning: docs/models.md.
 """
+
 from __future__ import annotations
 
 import itertools
@@ -118,12 +119,16 @@ def channels(p: Any) -> list[Any]:
     """The parameter sets of a colour, one per channel; a plain set is its own only channel."""
     widths = {len(v) for v in p if isinstance(v, tuple)}
     if len(widths) > 1:
-        raise UserError(f"colours of one model need the same number of channels, not {sorted(widths)}")
+        raise UserError(
+            f"colours of one model need the same number of channels, not {sorted(widths)}"
+        )
     count = widths.pop() if widths else 1
     return [type(p)(*(v[k] if isinstance(v, tuple) else v for v in p)) for k in range(count)]
 
 
-def build(name: str, namespace: Mapping[str, Any], picks: Mapping[str, str], built_in: bool) -> Model:
+def build(
+    name: str, namespace: Mapping[str, Any], picks: Mapping[str, str], built_in: bool
+) -> Model:
     """A Model from the names defined in a model file, with one option picked per choice."""
     choices = namespace.get("choices", {})
     picks = {c: picks.get(c, next(iter(options))) for c, options in choices.items()}

@@ -1,11 +1,13 @@
 """Where published models break physics, found by the tool itself: docs/physics.md.
 
-Every row is one command line, `brdf-check run --model ... --check energy,reciprocity,positivity`; the
-table shows the worst albedo that it finds, where, and whether the model is reciprocal and positive.
+Every row is one command line, `brdf-check run --model ... --check energy,reciprocity,positivity`;
+the table shows the worst albedo that it finds, where, and whether the model is reciprocal and
+positive.
 
     python scripts/physics_table.py            write docs/physics.md
     python scripts/physics_table.py --only blinn    print the rows whose command contains a word
 """
+
 from __future__ import annotations
 
 import argparse
@@ -77,7 +79,8 @@ def row(name: str, command: str) -> str:
     results = {r["check"]: r["findings"] for r in report_of(command)["results"]}
     albedo, reverse = (worst(results["energy"], q) for q in ("A", "R"))
     reciprocal = yes(results["reciprocity"])
-    return f"| {name} | {albedo} | {reverse} | {reciprocal} | {yes(results['positivity'])} | `{command}` |"
+    positive = yes(results["positivity"])
+    return f"| {name} | {albedo} | {reverse} | {reciprocal} | {positive} | `{command}` |"
 
 
 def worst(findings: list[dict[str, Any]], symbol: str) -> str:
@@ -85,7 +88,9 @@ def worst(findings: list[dict[str, Any]], symbol: str) -> str:
     (f,) = [f for f in findings if f["quantity"].startswith(f"worst {symbol}")]
     places = {k: v for k, v in f["where"].items() if not k.endswith("_deg")}
     angle = next(v for k, v in f["where"].items() if k.endswith("_deg"))
-    text = f"{f['value']:.5g} at {angle:.4g} deg" + "".join(f", {k}={v:.4g}" for k, v in places.items())
+    text = f"{f['value']:.5g} at {angle:.4g} deg" + "".join(
+        f", {k}={v:.4g}" for k, v in places.items()
+    )
     return f"**{text}**" if f["verdict"] in ("fail", "known") else text
 
 
@@ -96,7 +101,9 @@ def yes(findings: list[dict[str, Any]]) -> str:
 
 def main() -> None:
     """Write or print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("--only", help="only rows whose command contains this word")
     only = parser.parse_args().only
     rows = [row(n, c) for n, c in ROWS.items() if not only or only in c]
@@ -112,11 +119,14 @@ def main() -> None:
 
 INTRODUCTION = """# Where published models break physics
 
-Written by `python scripts/physics_table.py`: each row is what one command finds. A is the directional
+Written by `python scripts/physics_table.py`: each row is what one command finds. A is the
+directional
 albedo under constant light (the furnace test), R all the light that leaves for light from one
 direction (what energy conservation bounds by 1; it differs from A where f is not reciprocal). The
-worst of each is searched over angles up to 89.9 degrees and over the parameters that the command does
-not fix, within the range of the sets that the model is verified for; bold where it breaks the bound.
+worst of each is searched over angles up to 89.9 degrees and over the parameters that the command
+does
+not fix, within the range of the sets that the model is verified for; bold where it breaks the
+bound.
 
 """
 

@@ -1,4 +1,5 @@
 """What a check asserts: a number that can be estimated to any precision. Never a verdict."""
+
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
@@ -50,7 +51,8 @@ class Exact(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """How far counts are from what a density says: a distance with an upper bound, and a p-value."""
+    """How far counts are from what a density says: a distance with an upper bound, and a
+    p-value."""
 
     distance: float
     upper: float

@@ -88,7 +88,8 @@ def _remapped(ours: Any, wo: Any, wi: Any, other: Model, q: Any) -> str | None:
             changed = q._replace(**{name: mapping(getattr(q, name))})
             values = pointwise(other, changed).f(wo[some], wi[some])
             same = np.isclose(values, ours[some], rtol=1e-6, atol=0.0)
-            if changed != q and np.mean(same[ours[some] > 0.0]) > 0.9:
+            lit = same[ours[some] > 0.0]
+            if changed != q and lit.size and np.mean(lit) > 0.9:
                 return f"it is {other.name} with {words.format(name)} where {name} is meant"
     return None
 

@@ -1,10 +1,11 @@
 """White furnace: how much of a constant light 1 is reflected, and is that what theory says?
 
 Two claims per angle: A(wo) equals its reference (or, without one, the estimators agree with each
-other), and A(wo) is at most 1. Estimated by uniform, cosine and the model's own sampler; those unfit
-for a case are listed and not used. It cannot see: errors that a constant light averages out, and a
-non-reciprocal model's R(wi) > 1.
+other), and A(wo) is at most 1. Estimated by uniform, cosine and the model's own sampler; those
+unfit for a case are listed and not used. It cannot see: errors that a constant light averages out,
+and a non-reciprocal model's R(wi) > 1.
 """
+
 from __future__ import annotations
 
 import functools

@@ -1,8 +1,9 @@
 """Isotropy: does turning both directions about the normal change nothing?
 
-Half of the azimuth may be dropped, and findings at one azimuth speak for all, only where this holds.
-It cannot see: a dependence between the pairs looked at.
+Half of the azimuth may be dropped, and findings at one azimuth speak for all, only where this
+holds. It cannot see: a dependence between the pairs looked at.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterator

@@ -1,8 +1,10 @@
 """Limits: does the model become what it must where a parameter reaches an end?
 
 A lossless parameter set reflects exactly 1 at every angle; a declared limit equals another model
-(roughness 0 is Lambert, equal widths are the isotropic lobe). It cannot see: limits nobody declared.
+(roughness 0 is Lambert, equal widths are the isotropic lobe). It cannot see: limits nobody
+declared.
 """
+
 from __future__ import annotations
 
 import functools

@@ -6,8 +6,10 @@ mu_i = 0 is the curve t_max(phi) = T cos(phi) + sqrt(T^2 cos^2(phi) + 1), T = ta
     x = log(1 + (t/s)^2) / log(1 + (t_max/s)^2),   b = phi_h/(2 pi),   (x, b) in [0, 1)^2
 
 covers exactly the hemisphere, gives every scale from s to the horizon the same room, and turns a
-lobe of any width into a smooth function. dw = 4 (h.v) cos^3(theta_h) t dt dphi (Walter et al. 2007).
+lobe of any width into a smooth function. dw = 4 (h.v) cos^3(theta_h) t dt dphi (Walter et al.
+2007).
 """
+
 from __future__ import annotations
 
 from typing import Any, NamedTuple

@@ -5,6 +5,7 @@ pairs, pairs along the lobe; for the parameters asked about, some of the interio
 ends of its range. It cannot see:
 a wrong value that is finite and positive.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -58,7 +59,9 @@ def _count_not_finite(case: Case) -> Exact:
         if bad.any() and not count:
             k = int(np.argmax(bad))
             where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
-            hint = f"f is {f[k]} at {_name(wo[k], wi[k])}: look for 0/0, 1/0 or the root of a negative"
+            hint = (
+                f"f is {f[k]} at {_name(wo[k], wi[k])}: look for 0/0, 1/0 or the root of a negative"
+            )
         count += int(bad.sum())
         points += len(f)
     return Exact(float(count), 0.0, where, points, hint=hint)
@@ -73,7 +76,9 @@ def _smallest(case: Case) -> Exact:
         points = found.points + len(f)
         if value < found.value:
             where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
-            found = Exact(value, 0.0, where, points, hint=f"f = {f[k]:.6g} at {_name(wo[k], wi[k])}")
+            found = Exact(
+                value, 0.0, where, points, hint=f"f = {f[k]:.6g} at {_name(wo[k], wi[k])}"
+            )
         found = found._replace(points=points)
     return found
 

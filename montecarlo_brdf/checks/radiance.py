@@ -1,10 +1,11 @@
 """Does it hold under light that is not constant?
 
-Reflected radiance under a cosine sky and under a tilted lobe of light, by every sampler that is fit,
-against a quadrature of the same f (for a Lambert surface, against irradiance in closed form). It
-sees what a constant furnace cancels: a wrong sampler with a wrong pdf that make the image look right.
-It cannot see: an f that is wrong itself.
+Reflected radiance under a cosine sky and under a tilted lobe of light, by every sampler that is
+fit, against a quadrature of the same f (for a Lambert surface, against irradiance in closed form).
+It sees what a constant furnace cancels: a wrong sampler with a wrong pdf that make the image look
+right. It cannot see: an f that is wrong itself.
 """
+
 from __future__ import annotations
 
 import functools
@@ -61,7 +62,9 @@ def claims(case: Case) -> Iterator[Claim]:
         for name, sky in SKIES.items():
             expected = _expected(case, theta, sky)
             if expected is None:
-                yield Skip(f"L_o, {name} sky", "the quadrature does not resolve f: nothing to compare with")
+                yield Skip(
+                    f"L_o, {name} sky", "the quadrature does not resolve f: nothing to compare with"
+                )
                 continue
             yield MeanClaim(
                 f"L_o, {name} sky",
@@ -99,5 +102,6 @@ def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measuremen
     row = evaluate(subject, wo, functions, plan, (NAME,))[0]
     sight = fitness.look(model, model.prepared(case.one), wo)
     return [
-        Measurement(s, e, fitness.reason_unfit(s, e, sight, None)) for s, e in zip(chosen, row, strict=True)
+        Measurement(s, e, fitness.reason_unfit(s, e, sight, None))
+        for s, e in zip(chosen, row, strict=True)
     ]

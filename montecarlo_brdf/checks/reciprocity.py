@@ -4,6 +4,7 @@ The worst relative difference over edge pairs, random pairs and pairs along the 
 parameters asked about and some of the interior. It cannot see: a violation between the pairs looked
 at.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -43,7 +44,9 @@ def worst(case: Case) -> Exact:
     for k, p in enumerate(interiors.sets(case)):
         one = _worst_of(case, p, case.random(NAME, k))
         points = found.points + one.points
-        found = (one if one.value > found.value or found.points == 0 else found)._replace(points=points)
+        found = (one if one.value > found.value or found.points == 0 else found)._replace(
+            points=points
+        )
     return found
 
 

@@ -66,7 +66,8 @@ def sampling_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """--points, --samples, --seed, --threads, --tolerance."""
     options = [
         click.option("--points", default="sobol", show_default=True, metavar="SET",
-                     help="Point set: sobol, independent, stratified or lattice. [--points independent]"),
+                     help="Point set: sobol, independent, stratified or lattice. "
+                     "[--points independent]"),
         click.option("--samples", type=Whole(), default=None,
                      help="The most samples a claim may take; it stops sooner where it is decided. "
                      "[--samples 2^20]  [default: 2^22; run: 2^20]"),

@@ -1,4 +1,5 @@
 """brdf-check furnace"""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -59,8 +60,8 @@ Examples:
 def command(**options: Any) -> int:
     """How much of a constant light 1 does the surface reflect, and is that what theory says?
 
-    Two claims per angle: the albedo A equals its reference within the tolerance, and A <= 1. Each is
-    estimated by every sampler that can be trusted for the case.
+    Two claims per angle: the albedo A equals its reference within the tolerance, and A <= 1. Each
+    is estimated by every sampler that can be trusted for the case.
     """
     from montecarlo_brdf.report.plots import kind_of, plot
 

@@ -1,4 +1,5 @@
 """brdf-check identities"""
+
 from __future__ import annotations
 
 from typing import Any
@@ -10,7 +11,8 @@ from montecarlo_brdf.cli import _options
 
 @click.command(
     "identities",
-    epilog="\b\nExamples:\n  brdf-check identities\n  brdf-check identities --points independent --tolerance 1e-3",
+    epilog="\b\nExamples:\n  brdf-check identities\n"
+    "  brdf-check identities --points independent --tolerance 1e-3",
     short_help="Integrals over the hemisphere that everything rests on.",
 )
 @_options.sampling_options

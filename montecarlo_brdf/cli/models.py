@@ -1,10 +1,13 @@
 """brdf-check models"""
+
 from __future__ import annotations
 
 import click
 
 
-@click.command("models", epilog="\b\nExample:\n  brdf-check models", short_help="What models there are.")
+@click.command(
+    "models", epilog="\b\nExample:\n  brdf-check models", short_help="What models there are."
+)
 def command() -> int:
     """All built-in models: one line each, parameters with their ranges, reference, disclaimers."""
     from montecarlo_brdf import loading

@@ -1,4 +1,5 @@
 """brdf-check show"""
+
 from __future__ import annotations
 
 import click
@@ -6,7 +7,9 @@ import click
 from montecarlo_brdf.cli._options import model_names
 
 
-@click.command("show", epilog="\b\nExample:\n  brdf-check show lambert", short_help="All about a model.")
+@click.command(
+    "show", epilog="\b\nExample:\n  brdf-check show lambert", short_help="All about a model."
+)
 @click.argument("spec", metavar="MODEL", shell_complete=model_names)
 def command(spec: str) -> int:
     """Formula, units, source, parameters, sampling, what the model claims and what it disclaims."""

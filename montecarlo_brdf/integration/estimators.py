@@ -1,4 +1,5 @@
 """Estimators: a model, a direction and a sampler turned into an `Estimate`, never a bare float."""
+
 from __future__ import annotations
 
 import functools
@@ -43,7 +44,11 @@ class Plan(NamedTuple):
 
 def check_samples(samples: Any) -> int:
     """A number of samples between 1 and 2^40, or a UserError."""
-    if isinstance(samples, bool) or not isinstance(samples, int) or not 1 <= samples <= MOST_SAMPLES:
+    if (
+        isinstance(samples, bool)
+        or not isinstance(samples, int)
+        or not 1 <= samples <= MOST_SAMPLES
+    ):
         raise UserError(f"samples must be a whole number from 1 to 2^40, not {samples}")
     return samples
 
@@ -214,7 +219,7 @@ def query(model: Model, p: Any, fixed: Vec) -> tuple[float, ...]:
 
 
 def lobe_kind(model: Model) -> str:
-    """"half_vector", "mirror" or "": the chart that fits the lobe that the model declares."""
+    """ "half_vector", "mirror" or "": the chart that fits the lobe that the model declares."""
     kind = model.lobe[0].replace(" ", "_") if isinstance(model.lobe, tuple) else ""
     return kind if kind in charted.CHARTS else ""
 

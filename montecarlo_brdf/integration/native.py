@@ -5,6 +5,7 @@ in milliseconds with numba never imported. Every kernel has one signature, `void
 double*, double*)`, and numba's native convention around it, whose returned status is not 0 when
 the function raised.
 """
+
 from __future__ import annotations
 
 import ctypes
@@ -23,10 +24,65 @@ _PROTOTYPE = ctypes.CFUNCTYPE(ctypes.c_int32, *[ctypes.c_void_p] * 5)
 #: What an object may take from the process: the mathematics and memory functions of libc. Anything
 #: else (numba's run time, Python's own API) means that it must be run by numba itself.
 LIBC = frozenset(
-    "sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 "
-    "log1p pow sqrt cbrt hypot fabs floor ceil trunc rint round nearbyint fmod fma fmax fmin ldexp "
-    "frexp copysign erf erfc tgamma lgamma sincos memcpy memset memmove "
-    "sinf cosf tanf expf exp2f logf log2f powf sqrtf fmodf atan2f".split()
+    [
+        "sin",
+        "cos",
+        "tan",
+        "asin",
+        "acos",
+        "atan",
+        "atan2",
+        "sinh",
+        "cosh",
+        "tanh",
+        "asinh",
+        "acosh",
+        "atanh",
+        "exp",
+        "exp2",
+        "expm1",
+        "log",
+        "log2",
+        "log10",
+        "log1p",
+        "pow",
+        "sqrt",
+        "cbrt",
+        "hypot",
+        "fabs",
+        "floor",
+        "ceil",
+        "trunc",
+        "rint",
+        "round",
+        "nearbyint",
+        "fmod",
+        "fma",
+        "fmax",
+        "fmin",
+        "ldexp",
+        "frexp",
+        "copysign",
+        "erf",
+        "erfc",
+        "tgamma",
+        "lgamma",
+        "sincos",
+        "memcpy",
+        "memset",
+        "memmove",
+        "sinf",
+        "cosf",
+        "tanf",
+        "expf",
+        "exp2f",
+        "logf",
+        "log2f",
+        "powf",
+        "sqrtf",
+        "fmodf",
+        "atan2f",
+    ]
 )
 
 
@@ -47,7 +103,13 @@ def identity() -> tuple[Any, ...]:
     """Everything outside the source that machine code depends on."""
     from importlib.metadata import version
 
-    return (sys.version_info[:3], platform.machine(), version("numba"), version("llvmlite"), *target())
+    return (
+        sys.version_info[:3],
+        platform.machine(),
+        version("numba"),
+        version("llvmlite"),
+        *target(),
+    )
 
 
 def compile_function(function: Callable[..., Any]) -> bytes:

@@ -3,6 +3,7 @@
 K parameter sets (the channels of a colour) share the places of the numbers they have in common:
 the compiler then sees the same value once and computes what depends on it once.
 """
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
@@ -88,7 +89,8 @@ def unpacker(layout: Layout) -> Any:
 
 
 def _numba_type(shape: Any) -> Any:
-    """The numba type of a shape; a tuple of equal types is a uniform one, as numba would type it."""
+    """The numba type of a shape; a tuple of equal types is a uniform one, as numba would type
+    it."""
     import numba
 
     if shape is None:
@@ -96,7 +98,9 @@ def _numba_type(shape: Any) -> Any:
     kind, fields = shape[0], [_numba_type(s) for s in shape[1]]
     uniform = bool(fields) and all(t == fields[0] for t in fields)
     if kind is tuple:
-        return numba.types.UniTuple(fields[0], len(fields)) if uniform else numba.types.Tuple(fields)
+        return (
+            numba.types.UniTuple(fields[0], len(fields)) if uniform else numba.types.Tuple(fields)
+        )
     if uniform:
         return numba.types.NamedUniTuple(fields[0], len(fields), kind)
     return numba.types.NamedTuple(fields, kind)

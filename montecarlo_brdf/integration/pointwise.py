@@ -1,7 +1,9 @@
-"""A model's functions on arrays of directions: compiled, for checks that look at many single values.
+"""A model's functions on arrays of directions: compiled, for checks that look at many single
+values.
 
 Arrays of directions have the shape (n, 3), one unit vector per row.
 """
+
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -88,7 +90,8 @@ class Pointwise:
         return self._values(self.model.pdf, wo, wi)
 
     def sample(self, wo: Any, u: Any) -> tuple[Any, Any]:
-        """Directions (n, 3) drawn for numbers u (n, 3), and their weights, NaN where none is returned."""
+        """Directions (n, 3) drawn for numbers u (n, 3), and their weights, NaN where none is
+        returned."""
         from montecarlo_brdf.integration.probe import returns_weight
 
         write = write_weighted if returns_weight(self.model) else write_direction

@@ -3,6 +3,7 @@
 It tells a user's mistake in one sentence, and what sampling can not see by itself: a lobe so
 narrow that no sample hits it, and a divergence at the horizon that makes a variance infinite.
 """
+
 from __future__ import annotations
 
 import math
@@ -64,7 +65,9 @@ def _called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
 
 def _number(model: Model, member: str, value: Any) -> None:
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
-        raise ModelError(f"{member} of model {model.name} must return a number, not {_shown(value)}")
+        raise ModelError(
+            f"{member} of model {model.name} must return a number, not {_shown(value)}"
+        )
 
 
 def _shown(value: Any) -> str:

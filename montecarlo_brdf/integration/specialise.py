@@ -6,6 +6,7 @@ the user's own modules, functions that were already jitted) with our options. `f
 all that this depends on, code, constants, arrays, defaults and closure cells of every function
 reached, so a cached kernel can never be stale.
 """
+
 from __future__ import annotations
 
 import dis
@@ -222,6 +223,8 @@ class Specialiser:
         if key not in self._modules:
             self._alive += [module, code]
             stand_in = self._modules[key] = types.ModuleType(module.__name__)  # before its members:
-            for name, value in module_functions(module, names_used(code)).items():  # they may use it
+            for name, value in module_functions(
+                module, names_used(code)
+            ).items():  # they may use it
                 setattr(stand_in, name, self._counterpart(value, code))
         return self._modules[key]

@@ -54,7 +54,7 @@ def run(job: Job, threads: int = 1, progress: Progress | None = None) -> list[li
         [[] for _ in range(job.replicates)] for _ in range(job.width)
     ]
     done = 0
-    for call, states in zip(calls(job), _outcomes(job, threads)):
+    for call, states in zip(calls(job), _outcomes(job, threads), strict=False):
         for r in range(call.many):
             for k in range(job.width):
                 _push(stacks[k][call.first + r], states[r * job.width + k])

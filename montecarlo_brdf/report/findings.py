@@ -1,4 +1,5 @@
 """Findings, results, reports: plain data; text, JSON, pictures, exit codes are made from it."""
+
 from __future__ import annotations
 
 import json
@@ -65,7 +66,7 @@ class Report:
 
     @property
     def verdict(self) -> str:
-        """"pass", "fail" or "inconclusive" ("error" if a model could not be run)."""
+        """ "pass", "fail" or "inconclusive" ("error" if a model could not be run)."""
         verdict = worst(r.verdict for r in self.results)
         return "pass" if verdict in ("known", "skipped") else verdict
 
@@ -92,7 +93,8 @@ class Report:
         }
 
     def to_json(self) -> str:
-        """The report as JSON; numbers that are not finite become null: JSON has no name for them."""
+        """The report as JSON; numbers that are not finite become null: JSON has no name for
+        them."""
         return json.dumps(_plain(self.to_dict()), indent=1, allow_nan=False) + "\n"
 
 

@@ -4,6 +4,7 @@ Looks double (here: quadruple) the samples; look k may spend 2^-k of the level, 
 often does not raise the false-alarm rate. A refutation counts only when a fresh stream of another
 point set with more replicates refutes it again.
 """
+
 from __future__ import annotations
 
 import math
@@ -61,7 +62,9 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
         if accused:
             if confirmed(claim, plan._replace(samples=samples), spent, accused):
                 break
-            opinions = [o._replace(verdict="inconclusive") if o.verdict == "fail" else o for o in opinions]
+            opinions = [
+                o._replace(verdict="inconclusive") if o.verdict == "fail" else o for o in opinions
+            ]
         elif opinions and all(o.verdict == "pass" for o in opinions):
             break
     if claim.fallback and overall(opinions) == "inconclusive":
@@ -81,9 +84,13 @@ def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> l
         opinions.append(Opinion(m, half, verdict))
     if claim.expected is None and sum(o.verdict == "pass" for o in opinions) < 2:
         # one estimator alone agrees with itself
-        opinions = [o._replace(verdict="inconclusive") if o.verdict == "pass" else o for o in opinions]
+        opinions = [
+            o._replace(verdict="inconclusive") if o.verdict == "pass" else o for o in opinions
+        ]
     if claim.bound == "at most" and best is not None:
-        opinions = [o if o.measurement is best or o.verdict == "fail" else _aside(o) for o in opinions]
+        opinions = [
+            o if o.measurement is best or o.verdict == "fail" else _aside(o) for o in opinions
+        ]
     return opinions
 
 
@@ -202,7 +209,9 @@ def _row(opinion: Opinion) -> dict[str, object]:
     if m.unfit:
         row["not_used"] = m.unfit
     elif opinion.verdict == "inconclusive":
-        row["not_used"] = f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples"
+        row["not_used"] = (
+            f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples"
+        )
     return row
 
 
@@ -213,6 +222,7 @@ def _note(verdict: str, opinions: list[Opinion]) -> str | None:
     reasons = [o.measurement.unfit for o in opinions if o.measurement.unfit]
     fit = [o for o in opinions if not o.measurement.unfit]
     if fit:
-        return f"undecided at {fit[0].measurement.estimate.samples} samples: allow more with --samples"
+        return (
+            f"undecided at {fit[0].measurement.estimate.samples} samples: allow more with --samples"
+        )
     return reasons[0] if reasons else None
-

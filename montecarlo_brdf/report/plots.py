@@ -1,4 +1,5 @@
 """Pictures of reports: pure functions of the plain data, so they can be drawn again at any time."""
+
 from __future__ import annotations
 
 import io
@@ -39,12 +40,14 @@ def save(figure: Any, path: Path) -> None:
     content = io.BytesIO()
     # a fixed hash salt and no date
     with matplotlib.rc_context({"svg.hashsalt": "montecarlo_brdf"}):
-        figure.savefig(content, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else {})
+        figure.savefig(
+            content, format=kind, dpi=150, metadata={"Date": None} if kind == "svg" else {}
+        )
     write_bytes(path, content.getvalue())
 
 
 def kind_of(path: Path) -> str:
-    """"png", "svg" or "pdf", or a UserError."""
+    """ "png", "svg" or "pdf", or a UserError."""
     kind = path.suffix.lstrip(".").lower()
     if kind not in KINDS:
         raise UserError(f"cannot draw {path}: the name must end in .png, .svg or .pdf")
@@ -103,7 +106,9 @@ def _label(result: dict[str, Any], channel: int | None) -> str:
         k: v[channel] if isinstance(v, list) and channel is not None else v
         for k, v in result["params"].items()
     }
-    return ", ".join(f"{k}={v:.4g}" if isinstance(v, float) else f"{k}={v}" for k, v in values.items())
+    return ", ".join(
+        f"{k}={v:.4g}" if isinstance(v, float) else f"{k}={v}" for k, v in values.items()
+    )
 
 
 def _title(report: dict[str, Any], shown: int) -> str:
@@ -118,14 +123,18 @@ def _albedo(axes: Any, one: dict[str, Any], colour: str, marker: str) -> None:
     theta = [f["where"]["theta_o_deg"] for f in rows]
     errors = [3.0 * (f.get("stderr") or 0.0) for f in rows]
     values = [f["value"] for f in rows]
-    low = [v - e for v, e in zip(values, errors)]
-    high = [v + e for v, e in zip(values, errors)]
+    low = [v - e for v, e in zip(values, errors, strict=False)]
+    high = [v + e for v, e in zip(values, errors, strict=False)]
     axes.fill_between(theta, low, high, color=colour, alpha=0.2, linewidth=0)
     axes.errorbar(theta, values, errors, fmt=marker, color=colour, markersize=4, capsize=2,
                   label=f"{one['label'] or 'estimate'} (+- 3 stderr)")  # fmt: skip
-    curve = one["curve"] or [(f["where"]["theta_o_deg"], f["expected"]) for f in rows if "expected" in f]
+    curve = one["curve"] or [
+        (f["where"]["theta_o_deg"], f["expected"]) for f in rows if "expected" in f
+    ]
     if curve:
-        axes.plot(*zip(*curve), color=colour, linewidth=1.0, label="line above: reference")
+        axes.plot(
+            *zip(*curve, strict=False), color=colour, linewidth=1.0, label="line above: reference"
+        )
 
 
 def _error(axes: Any, one: dict[str, Any], colour: str, marker: str) -> None:

@@ -1,4 +1,5 @@
 """Reading an exported report."""
+
 from __future__ import annotations
 
 import json
@@ -20,5 +21,7 @@ def read_report(path: Path) -> dict[str, Any]:
     if not isinstance(data, dict) or not isinstance(data.get("results"), list):
         raise UserError(f"{path} is not a report of brdf-check")
     if data.get("schema") != SCHEMA:
-        raise UserError(f"{path} has schema {data.get('schema')}; this version reads schema {SCHEMA}")
+        raise UserError(
+            f"{path} has schema {data.get('schema')}; this version reads schema {SCHEMA}"
+        )
     return data

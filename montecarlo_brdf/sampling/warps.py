@@ -5,6 +5,7 @@ area on the disk; all sample the frame n = (0, 0, 1). Square roots and polynomia
 compiler turns a whole loop of them into vector instructions.
 Source: Pharr, Jakob, Humphreys, Physically Based Rendering 4e, A.5.
 """
+
 from __future__ import annotations
 
 import math
@@ -32,7 +33,8 @@ def random_disk(u1: float, u2: float) -> tuple[float, float]:
 
 
 def random_hemisphere(u1: float, u2: float) -> Vec:
-    """Uniform on the hemisphere, pdf 1/(2 pi): the sphere folded by |z|, no branch, no rejection."""
+    """Uniform on the hemisphere, pdf 1/(2 pi): the sphere folded by |z|, no branch, no
+    rejection."""
     x, y, z = random_sphere(u1, u2)
     return x, y, abs(z)
 
