@@ -19,7 +19,7 @@ FLOOR = 4.0 * 2.0**-52
 class Moments(NamedTuple):
     """Count, mean, sum of squared deviations and largest value of some samples."""
 
-    count: float
+    count: float  # type: ignore[assignment]  # hides tuple.count
     mean: float
     squares: float
     largest: float

@@ -134,10 +134,10 @@ def seed_of(text: str) -> int:
         seed = secrets.randbits(32)
         click.echo(f"seed {seed}", err=True)
         return seed
-    seed = whole(text)
-    if seed is None or seed >= 1 << 64:
+    number = whole(text)
+    if number is None or number >= 1 << 64:
         raise UserError(f"seed must be a whole number from 0 to 2^64 - 1, or random, not {text!r}")
-    return seed
+    return number
 
 
 def deliver(

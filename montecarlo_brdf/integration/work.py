@@ -43,7 +43,7 @@ class Call(NamedTuple):
     first: int
     many: int
     start: int
-    count: int
+    count: int  # type: ignore[assignment]  # hides tuple.count, which nobody asks a call for
 
 
 def run(job: Job, threads: int = 1, progress: Progress | None = None) -> list[list[Moments]]:

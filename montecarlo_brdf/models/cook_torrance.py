@@ -18,7 +18,7 @@ blinn_phong (1.25 at grazing, n = 1) and when divided by pi (4/pi = 1.273 for sm
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.models import _masking
 from montecarlo_brdf.models._chebyshev import Eight
@@ -86,12 +86,13 @@ def blinn_phong(h: Vec, p: PreparedBlinnPhong) -> float:
     return (p.n + 2.0) / (2.0 * math.pi) * half_power(h, p.n)
 
 
-def with_alpha(p: Params, optics: tuple[float, float]) -> Prepared:
+def with_alpha(p: Any, optics: tuple[float, float]) -> Prepared:
     return Prepared(p.alpha, *optics)
 
 
-def with_exponent(p: Params, optics: tuple[float, float]) -> PreparedBlinnPhong:
-    return PreparedBlinnPhong(width(p.n), *optics, *blinn_phong_series(p.n))
+def with_exponent(p: Any, optics: tuple[float, float]) -> PreparedBlinnPhong:
+    series: Any = blinn_phong_series(p.n)
+    return PreparedBlinnPhong(width(p.n), *optics, *series)
 
 
 def one(h: Vec, p: Prepared) -> float:
@@ -174,7 +175,8 @@ choices = {
     "normalisation": {"4": by_four, "pi": by_pi},
 }
 density, hidden, shape, masking = ggx, hidden_by_ggx, with_alpha, _masking.smith
-fresnel, optics, normalisation = one, None, by_four
+fresnel, normalisation = one, by_four
+optics: Any = None
 lobe = ("half vector", lambda p: p.alpha if "alpha" in p._fields else width(p.n))
 
 

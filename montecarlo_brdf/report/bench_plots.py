@@ -37,10 +37,12 @@ def bench_figure(data: dict[str, Any]) -> Any:
         axes.set_xlabel("processor time (s)")
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
-    known = {}
+    known: dict[str, Any] = {}
     for axes in panels.flat:
         known |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-    figure.legend(known.values(), known.keys(), loc="outside lower center", ncols=4, fontsize=8)
+    figure.legend(
+        list(known.values()), list(known), loc="outside lower center", ncols=4, fontsize=8
+    )
     return figure
 
 

@@ -57,7 +57,7 @@ def furnace(
     """
     sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
     angles = theta_o_deg if isinstance(theta_o_deg, (list, tuple)) else [theta_o_deg]
-    angles = [check_theta(a) for a in angles]
+    thetas = [check_theta(a) for a in angles]
     chosen = chosen_samplers(model, sampler)
     chosen_method = method or ("given" if target_error is None else "auto")
     plan = planned(points, samples, seed, threads)
@@ -70,16 +70,16 @@ def furnace(
         variant = model.of(one)
         probed(variant, one)
         only = None if sampler == "all" else chosen
-        case = Case(variant, one, angles, phi_o_deg, only, tolerance, seed=seed)
+        case = Case(variant, one, thetas, phi_o_deg, only, tolerance, seed=seed)
         share = shared_progress(progress, i, len(sets))
         findings = decided(
-            furnace_check.claims(case), plan, variant, 2 * len(angles) * len(case.sets), share
+            furnace_check.claims(case), plan, variant, 2 * len(thetas) * len(case.sets), share
         )
-        curves = furnace_check.curves(variant, one, max(angles), phi_o_deg) if curve else []
+        curves = furnace_check.curves(variant, one, max(thetas), phi_o_deg) if curve else []
         shown = shown_parameters(variant, one)
         results.append(Result(model.name, shown, "furnace", findings, curves, source(model)))
     settings = {
-        "theta_o_deg": list(angles),
+        "theta_o_deg": thetas,
         "phi_o_deg": phi_o_deg,
         "sampler": list(chosen),
         "tolerance": tolerance,
