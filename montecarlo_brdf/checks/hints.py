@@ -68,9 +68,9 @@ def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
     }
     for name, shape in [*shapes.items(), *((f"/{n.strip()}", 1.0 / s) for n, s in shapes.items())]:
         quotient = ratio / shape
-        middle = float(np.median(quotient))
-        if len(quotient) < 100 or middle == 0.0:
+        if len(quotient) < 100 or not np.median(quotient):
             continue
+        middle = float(np.median(quotient))
         if np.quantile(abs(quotient / middle - 1.0), 0.98) < CLOSE:
             cause = _cause(name) if name else factor_named(middle) or _cause(name)
             return f"{middle:.6g}{name} everywhere: {cause}"
