@@ -29,12 +29,13 @@ ROWS = {
     "Lambert f = c": "lambert_unnormalised -p c=0.5",
     "Oren-Nayar, qualitative": "oren_nayar -p albedo=1",
     "Oren-Nayar, full": "oren_nayar_full -p albedo=1",
+    "Oren-Nayar, full, dark and rough": "oren_nayar_full -p albedo=0.05 -p sigma=1.57",
     "Fujii, qualitative": "fujii_qualitative -p albedo=1",
     "FON": "fon -p albedo=1",
     "EON": "eon -p albedo=1",
     "Minnaert, k = 0.3": "minnaert -p albedo=1 -p k=0.3",
     "Minnaert, k = 1.5": "minnaert -p albedo=1 -p k=1.5",
-    "Phong, f = (r.v)^n": "phong_unnormalised -p ks=1",
+    "Phong, f = (r.v)^n, n = 1": "phong_unnormalised -p ks=1 -p n=1",
     "Phong 1975, N = 1": "phong_original -p ks=1 -p norm=none",
     "Phong 1975, N = (n+1)/2pi": "phong_original -p ks=1",
     "Phong, modified": "phong -p ks=1",
@@ -120,13 +121,11 @@ def main() -> None:
 INTRODUCTION = """# Where published models break physics
 
 Written by `python scripts/physics_table.py`: each row is what one command finds. A is the
-directional
-albedo under constant light (the furnace test), R all the light that leaves for light from one
-direction (what energy conservation bounds by 1; it differs from A where f is not reciprocal). The
-worst of each is searched over angles up to 89.9 degrees and over the parameters that the command
-does
-not fix, within the range of the sets that the model is verified for; bold where it breaks the
-bound.
+directional albedo under constant light (the furnace test), R all the light that leaves for light
+from one direction (what energy conservation bounds by 1; it differs from A where f is not
+reciprocal). The worst of each is searched over angles up to 89.9 degrees and over the parameters
+that the command does not fix, within the range of the sets that the model is verified for; bold
+where it breaks the bound.
 
 """
 
