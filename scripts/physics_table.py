@@ -29,7 +29,6 @@ ROWS = {
     "Lambert f = c": "lambert_unnormalised -p c=0.5",
     "Oren-Nayar, qualitative": "oren_nayar -p albedo=1",
     "Oren-Nayar, full": "oren_nayar_full -p albedo=1",
-    "Oren-Nayar, full, dark and rough": "oren_nayar_full -p albedo=0.05 -p sigma=1.57",
     "Fujii, qualitative": "fujii_qualitative -p albedo=1",
     "FON": "fon -p albedo=1",
     "EON": "eon -p albedo=1",
