@@ -1,21 +1,31 @@
-"""The scenes of a row of spheres: one per combination of parameters."""
+"""The scenes of a page of spheres: one per combination of parameters."""
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.verify.common import shown_parameters
 
 FURNACE = 0.5  # radiance of the furnace: a lossless sphere disappears in its grey
 MOST_SPHERES = 12
 
 
-def scenes_of(options: dict[str, Any]) -> list[tuple[str, Any]]:
-    """(label, scene) of every parameter set."""
+class Case(NamedTuple):
+    """One sphere."""
+
+    label: str
+    scene: Any
+
+
+def scenes_of(options: dict[str, Any]) -> tuple[list[Case], int]:
+    """All spheres, and how many stand in a row: the values of the last parameter that varies."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._values import parameter_sets
+    from montecarlo_brdf.cli._values import axes, parameter_sets
     from montecarlo_brdf.scene.make import scene_of
 
     path, spec, sky = options["scene"], options["spec"], options["environment"]
@@ -26,45 +36,61 @@ def scenes_of(options: dict[str, Any]) -> list[tuple[str, Any]]:
     if not spec or not (sky or options["furnace"]):
         raise UserError("give a scene file, or --model with --environment or --furnace")
     model = loading.load(spec)
-    sets = parameter_sets(model, options["assignments"])
-    _check_count(len(sets))
-    labels = [_label(spec, options["assignments"], p) for p in sets]
-    scenes = [scene_of(model, p, sky or f"constant:{FURNACE}") for p in sets]
-    return list(zip(labels, scenes, strict=True))
+    columns = _columns(axes(options["assignments"], lambda name: model))
+    cases = [
+        Case(
+            _label(spec, options["assignments"], model.of(p), p),
+            scene_of(model.of(p), p, sky or f"constant:{FURNACE}"),
+        )
+        for p in parameter_sets(model, options["assignments"])
+    ]
+    return cases, columns
 
 
-def _label(spec: str, assignments: Sequence[str], p: Any) -> str:
-    """The model and the parameters that were given."""
-    names = [a.partition("=")[0].strip().replace(".", "_") for a in assignments]
-    rows = [f"{n} = {_shown(getattr(p, n))}" for n in names if hasattr(p, n)]
-    return f"{spec}\n{', '.join(rows)}" if rows else spec
+def _columns(listed: dict[str, list[Any]]) -> int:
+    """Spheres in a row; complains if there are too many."""
+    counts = [len(values) for values in listed.values()]
+    total = math.prod(counts)
+    if total > MOST_SPHERES:
+        raise UserError(f"{total} spheres are more than the {MOST_SPHERES} that fit a picture")
+    varied = [n for n in counts if n > 1]
+    return varied[-1] if varied else 1
+
+
+def _label(spec: str, assignments: Sequence[str], model: Any, p: Any) -> str:
+    """The model, and the parameters and choices that were given."""
+    values = shown_parameters(model, p)
+    names = [a.partition("=")[0].strip() for a in assignments]
+    rows = [f"{n} = {_shown(values[n])}" for n in names if n in values]
+    return "\n".join([spec, ", ".join(rows)]) if rows else spec
 
 
 def _shown(value: Any) -> str:
-    return "/".join(f"{v:.3g}" for v in value) if isinstance(value, tuple) else f"{value:.3g}"
+    if isinstance(value, tuple):
+        return "/".join(map(_shown, value))
+    return value if isinstance(value, str) else f"{value:.3g}"
 
 
-def _from_file(path: Path, assignments: Sequence[str]) -> list[tuple[str, Any]]:
+def _from_file(path: Path, assignments: Sequence[str]) -> tuple[list[Case], int]:
     """The scene once per combination of -p values, which replace those of its surface."""
-    import itertools
-
     from montecarlo_brdf.cli._values import _parameter
     from montecarlo_brdf.scene.read import read_scene
 
-    axes = []
+    listed: dict[str, list[Any]] = {}
     for assignment in assignments:
-        name, equals, text = assignment.partition("=")
-        if not equals or not text:
-            raise UserError(f"-p takes name=value, not {assignment!r}")
-        axes.append(
-            [(name.strip(), v) for part in text.split(",") for v in _parameter(name, part.strip())]
-        )
-    rows = list(itertools.product(*axes))
-    _check_count(len(rows))
-    made = [(read_scene(path, **dict(row)), row) for row in rows]
-    return [("\n".join([s.name, *(f"{n} = {v}" for n, v in row)]), s) for s, row in made]
+        name, equals, text = (t.strip() for t in assignment.partition("="))
+        if not equals or not text or name in listed:
+            raise UserError(f"-p takes name=value, once per name, not {assignment!r}")
+        listed[name] = [v for part in text.split(",") for v in _parameter(name, part.strip())]
+    columns = _columns(listed)
+    cases = []
+    for row in itertools.product(*listed.values()):
+        scene = read_scene(path, **dict(zip(listed, row, strict=True)))
+        told = ", ".join(f"{n} = {_typed(v)}" for n, v in zip(listed, row, strict=True))
+        cases.append(Case(f"{scene.name}\n{told}" if told else scene.name, scene))
+    return cases, columns
 
 
-def _check_count(count: int) -> None:
-    if count > MOST_SPHERES:
-        raise UserError(f"{count} spheres are more than the {MOST_SPHERES} that fit a picture")
+def _typed(value: Any) -> str:
+    """A value as it was typed, a number of a range in three digits."""
+    return "/".join(value) if isinstance(value, tuple) else _shown(value)

@@ -46,7 +46,8 @@ Examples:
     "assignments",
     multiple=True,
     metavar="NAME=VALUE",
-    help="A parameter; lists and ranges make a row of spheres. [-p alpha=0.1:1:5]",
+    help="A parameter; lists and ranges make a row of spheres, two of them a grid. "
+    "[-p alpha=0.1:1:5]",
 )
 @click.option(
     "--environment",
@@ -110,7 +111,7 @@ def command(**options: Any) -> int:
                 f"{name} must be a whole number from {low} to {high}, not {options[name]}"
             )
     camera = from_degrees(*_camera(options["camera"]))
-    cases = scenes_of(options)
+    cases, columns = scenes_of(options)
     made = []
     with progress("render") as update:
         for k, (label, scene) in enumerate(cases):
@@ -128,7 +129,7 @@ def command(**options: Any) -> int:
             click.echo(_said(label, one, options["furnace"]))
     labels = [label for label, _ in cases]
     for path in options["outputs"]:
-        spheres.save(path, made, labels, FURNACE if options["furnace"] else None)
+        spheres.save(path, made, labels, FURNACE if options["furnace"] else None, columns)
     return 0
 
 
@@ -138,11 +139,12 @@ def _said(label: str, sphere: Any, furnace: bool) -> str:
     from montecarlo_brdf.cli._spheres import FURNACE
 
     shown = sphere.values[sphere.inside]
-    text = f"{label}: L_o from {shown.min():.6g} to {shown.max():.6g}, {sphere.how}"
-    text += f", error up to {sphere.error:.1e}"
+    text = f"{', '.join(label.splitlines())}: L_o from {shown.min():.6g} to {shown.max():.6g}"
+    text += f", {sphere.how}, error up to {sphere.error:.1e}"
     if furnace:
         d = shown / FURNACE - 1.0
-        text += f"; difference to the light {np.min(d):+.3%} to {np.max(d):+.3%}"
+        form = "+.3%" if np.abs(d).max() > 1e-4 else "+.1e"
+        text += f"; difference to the light {np.min(d):{form}} to {np.max(d):{form}}"
     return text
 
 

@@ -1,4 +1,4 @@
-"""Pictures of spheres: tone-mapped PNG, furnace panels with signed differences, raw numbers."""
+"""Pictures of spheres: sRGB in PNG, furnace panels with signed differences, raw numbers."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import OutputError, UserError
+from montecarlo_brdf.report import panels
 from montecarlo_brdf.report.write import write_bytes
 
 KINDS = ("png", "npy", "exr")
-SCALE = 0.1  # the difference panel runs from -10 % to +10 %
 
 
 def check_kind(path: Path) -> None:
@@ -23,20 +23,33 @@ def check_kind(path: Path) -> None:
         _openexr(path)
 
 
-def save(path: Path, spheres: Sequence[Any], labels: Sequence[str], furnace: float | None) -> None:
-    """Write the spheres: a picture, or their linear values side by side."""
+def save(
+    path: Path,
+    spheres: Sequence[Any],
+    labels: Sequence[str],
+    furnace: float | None,
+    columns: int | None = None,
+) -> None:
+    """Write the spheres, `columns` in a row: a picture, or their linear values side by side."""
+    kind = path.suffix.lstrip(".").lower()
+    rows = _rows(spheres, columns)
+    if kind == "png":
+        write_bytes(path, _png(rows, _rows(labels, columns), furnace))
+        return
     import numpy as np
 
-    kind = path.suffix.lstrip(".").lower()
-    values = np.concatenate([s.values for s in spheres], axis=1)
-    if kind == "npy":
-        content = io.BytesIO()
-        np.save(content, values)
-        write_bytes(path, content.getvalue())
-    elif kind == "exr":
+    values = np.concatenate([np.concatenate([s.values for s in r], axis=1) for r in rows])
+    if kind == "exr":
         _write_exr(path, values)
-    else:
-        write_bytes(path, _png(spheres, labels, furnace))
+        return
+    content = io.BytesIO()
+    np.save(content, values)
+    write_bytes(path, content.getvalue())
+
+
+def _rows(things: Sequence[Any], columns: int | None) -> list[Sequence[Any]]:
+    step = columns or len(things)
+    return [things[k : k + step] for k in range(0, len(things), step)]
 
 
 def encoded(values: Any) -> Any:
@@ -47,8 +60,9 @@ def encoded(values: Any) -> Any:
         raise UserError(
             f"a picture needs 1 or 3 channels, not {values.shape[2]}: write numbers to a .npy file"
         )
-    v = np.clip(np.repeat(values, 3 // values.shape[2], axis=2), 0.0, 1.0)
-    return np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1.0 / 2.4) - 0.055)
+    v = np.clip(values, 0.0, 1.0)
+    v = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1.0 / 2.4) - 0.055)
+    return np.repeat(v, 3 // v.shape[2], axis=2)
 
 
 def difference(sphere: Any, light: float) -> Any:
@@ -60,52 +74,50 @@ def difference(sphere: Any, light: float) -> Any:
     return np.where(sphere.inside, worst, np.nan)
 
 
-def _png(spheres: Sequence[Any], labels: Sequence[str], furnace: float | None) -> bytes:
+def _png(
+    spheres: Sequence[Sequence[Any]], labels: Sequence[Sequence[str]], furnace: float | None
+) -> bytes:
+    from PIL import Image
+
     content = io.BytesIO()
-    if furnace is None and len(spheres) == 1:
-        from PIL import Image
-
-        Image.fromarray((255.0 * encoded(spheres[0].values) + 0.5).astype("uint8")).save(
-            content, "png"
-        )
+    if furnace is None and len(spheres) == len(spheres[0]) == 1:
+        pixels = _pixels(spheres[0][0]) + 0.5
+        Image.fromarray(pixels.astype("uint8")).save(content, "png")
     else:
-        import matplotlib
-
-        matplotlib.use("Agg")
-        _figure(spheres, labels, furnace).savefig(content, format="png", dpi=100)
+        rows = [
+            row
+            for some, names in zip(spheres, labels, strict=True)
+            for row in _panels(some, names, furnace)
+        ]
+        panels.page(rows, furnace).save(content, "png")
     return content.getvalue()
 
 
-def _figure(spheres: Sequence[Any], labels: Sequence[str], furnace: float | None) -> Any:
-    """One column per parameter set: the sphere, and in a furnace the signed difference below it."""
-    from matplotlib.figure import Figure
-
-    rows = 1 if furnace is None else 2
-    width = 3.2 * len(spheres) + (0.0 if furnace is None else 1.0)
-    figure = Figure(figsize=(width, 3.3 * rows), layout="constrained")
-    axes = figure.subplots(rows, len(spheres), squeeze=False)
-    for k, (sphere, label) in enumerate(zip(spheres, labels, strict=True)):
-        axes[0][k].imshow(encoded(sphere.values), interpolation="nearest")
-        axes[0][k].set_title(label, fontsize=9)
-        if furnace is not None:
-            _panel(axes[1][k], sphere, furnace)
-    for one in axes.ravel():
-        one.set_axis_off()
+def _panels(
+    spheres: Sequence[Any], labels: Sequence[str], furnace: float | None
+) -> list[list[panels.Panel]]:
+    """A row of spheres, and in a furnace the signed differences below it."""
+    found = [[panels.Panel(t, _pixels(s)) for s, t in zip(spheres, labels, strict=True)]]
     if furnace is not None:
-        ticks = [k * SCALE / 2.0 for k in range(-2, 3)]
-        image = axes[1][-1].images[0]
-        bar = figure.colorbar(image, ax=list(axes[1]), extend="both", shrink=0.9, ticks=ticks)
-        bar.set_label(f"(L_o - L_i)/L_i,  L_i = {furnace:g}")
-        bar.ax.yaxis.set_major_formatter("{x:+.0%}")
-    return figure
+        found.append([_difference(s, furnace) for s in spheres])
+    return found
 
 
-def _panel(axes: Any, sphere: Any, light: float) -> None:
+def _pixels(sphere: Any) -> Any:
+    return 255.0 * encoded(sphere.values)
+
+
+def _difference(sphere: Any, light: float) -> panels.Panel:
     import numpy as np
 
     d = difference(sphere, light)
-    axes.imshow(d, cmap="RdBu_r", vmin=-SCALE, vmax=SCALE, interpolation="nearest")
-    axes.set_title(f"{np.nanmin(d):+.2%} to {np.nanmax(d):+.2%}", fontsize=9)
+    title = f"{_percent(np.nanmin(d))} to {_percent(np.nanmax(d))}"
+    return panels.Panel(title, panels.coloured(d))
+
+
+def _percent(value: float) -> str:
+    """A signed share; what rounds to nothing has no sign."""
+    return f"{value:+.2%}" if abs(value) >= 5e-5 else "0.00%"
 
 
 def _openexr(path: Path) -> Any:

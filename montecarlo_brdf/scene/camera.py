@@ -7,17 +7,24 @@ from typing import Any
 from montecarlo_brdf.vectors import Vec
 
 
-def normals_of(size: int, camera: Vec) -> tuple[Any, Any]:
-    """Which pixels show the sphere, and its normals there in the world."""
+def disk_of(size: int) -> tuple[Any, Any]:
+    """Which pixels show the sphere, and (right, up, towards the camera) of its normals there."""
     import numpy as np
 
     x = (np.arange(size) + 0.5) * (2.2 / size) - 1.1
     x, y = np.meshgrid(x, -x)
     inside = x * x + y * y < 1.0
     x, y = x[inside], y[inside]
-    z = np.sqrt(1.0 - x * x - y * y)
+    return inside, (x, y, np.sqrt(1.0 - x * x - y * y))
+
+
+def in_world(disk: Any, camera: Vec) -> Any:
+    """Normals of the disk's pixels in the world."""
+    import numpy as np
+
+    x, y, z = disk
     right, up = _screen(camera)
-    return inside, x[:, None] * right + y[:, None] * up + z[:, None] * np.array(camera)
+    return x[:, None] * right + y[:, None] * up + z[:, None] * np.array(camera)
 
 
 def _screen(camera: Vec) -> tuple[Any, Any]:

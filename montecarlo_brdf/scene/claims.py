@@ -9,7 +9,6 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 from montecarlo_brdf.checks.claim import (
@@ -26,7 +25,7 @@ from montecarlo_brdf.scene.plan import ScenePlan, View
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.spectrum import band_albedo
 from montecarlo_brdf.scene.standard import Standard
-from montecarlo_brdf.scene.standard_lobes import surface_of
+from montecarlo_brdf.scene.standard_lobes import as_lobes
 from montecarlo_brdf.scene.surface import Surface
 from montecarlo_brdf.vectors import Vec, from_degrees
 
@@ -37,16 +36,6 @@ def plan_of(scene: Scene, skip: bool = True) -> ScenePlan:
     if any(scene.ambient):  # of the standard equation: it is part of what its lobes emit
         plan = plan._replace(items=[i for i in plan.items if i.what != "ambient"])
     return plan
-
-
-def as_lobes(scene: Scene) -> Scene:
-    """The standard lighting equation as a surface of lobes; other scenes as they are."""
-    if not isinstance(scene.surface, Standard):
-        return scene
-    ambient = zip(scene.emission, scene.ambient, scene.surface.ambient_colour, strict=True)
-    glow = tuple(e + a * k for e, a, k in ambient)
-    dark = (0.0,) * scene.channels
-    return replace(scene, surface=surface_of(scene.surface), emission=glow, ambient=dark)
 
 
 def claims(scene: Scene, plan: ScenePlan, tolerance: float | None = None) -> Iterator[MeanClaim]:

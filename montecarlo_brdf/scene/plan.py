@@ -58,11 +58,11 @@ class ScenePlan(NamedTuple):
     skip: bool
 
 
-def make(scene: Scene, skip: bool = True) -> ScenePlan:
-    """The plan of a scene whose surface is made of lobes."""
+def make(scene: Scene, skip: bool = True, sphere: bool = False) -> ScenePlan:
+    """The plan of a scene whose surface is made of lobes, flat or the whole of a `sphere`."""
     items: list[Item] = []
     lobes = _lobes(scene, skip, items)
-    works = _works(scene, lobes, skip, items)
+    works = _works(scene, lobes, skip, sphere, items)
     lights = _lights(scene, skip, items)
     for name in ("ambient", "emission"):
         if skip and not any(getattr(scene, name)):
@@ -80,11 +80,13 @@ def _lobes(scene: Scene, skip: bool, items: list[Item]) -> list[Lobe]:
     return kept
 
 
-def _works(scene: Scene, lobes: list[Lobe], skip: bool, items: list[Item]) -> list[Work]:
+def _works(
+    scene: Scene, lobes: list[Lobe], skip: bool, sphere: bool, items: list[Item]
+) -> list[Work]:
     sky = scene.sky
     if sky is None:
         return []
-    if skip and (sky.black or all(map(skies.below_horizon, sky.shapes))):
+    if skip and (sky.black or (not sphere and all(map(skies.below_horizon, sky.shapes)))):
         reason = "it is black" if sky.black else "all of it is below the horizon"
         items.append(Item("environment", False, reason, len(lobes) * scene.channels))
         return []

@@ -36,7 +36,7 @@ def measure(plan: ScenePlan, wo: Vec, sampling: Plan) -> list[Measurement]:
     unfit: list[str | None] = [None] * len(exact)
     for work in plan.works:
         if work.method == "one value":
-            _add_values(work, wo, exact)
+            _add_values(work, exact)
             continue
         estimates = _estimate(work, wo, sampling)
         for c, share in enumerate(work.shares):
@@ -115,10 +115,14 @@ def ambient_colour(scene: Scene) -> list[float]:
     return total
 
 
-def _add_values(work: Work, wo: Vec, exact: list[float]) -> None:
-    """A constant f under a constant sky of 1: L_o = pi f."""
+def constant_values(work: Work) -> list[float]:
+    """L_o of a constant f under a constant sky of 1, pi f, per parameter set."""
     up = (0.0, 0.0, 1.0)
-    values = [math.pi * value_of(work.model, p, up, up) for p, _ in work.sets]
+    return [math.pi * value_of(work.model, p, up, up) for p, _ in work.sets]
+
+
+def _add_values(work: Work, exact: list[float]) -> None:
+    values = constant_values(work)
     for c, share in enumerate(work.shares):
         exact[c] += share.factor * values[share.place] if share else 0.0
 

@@ -23,7 +23,7 @@ from montecarlo_brdf.scene.shapes import (
 )
 from montecarlo_brdf.scene.texels import image, image_pdf, image_sample
 from montecarlo_brdf.special import cosine_power, expm1, log1p, turn
-from montecarlo_brdf.vectors import NORMAL, Vec, dot, tangent_frame
+from montecarlo_brdf.vectors import NORMAL, Vec, dot, from_degrees, tangent_frame
 
 TWO_PI = 2.0 * math.pi
 
@@ -141,6 +141,16 @@ def below_horizon(shape: Any) -> bool:
     angle = 2.0 * math.asin(math.sqrt(min(1.0, 0.5 * shape.depth)))
     tilt = math.atan2(math.hypot(shape.axis[0], shape.axis[1]), shape.axis[2])
     return tilt >= 0.5 * math.pi + angle
+
+
+def lowest(shape: Any, last: int = 180) -> float:
+    """The smallest radiance of a shape down to a polar angle; of harmonics, on a grid."""
+    if isinstance(shape, Linear):
+        return shape.a - abs(shape.b)
+    if not isinstance(shape, Harmonics):
+        return 0.0
+    angles = ((t, p) for t in range(0, last + 1, 3) for p in range(0, 360, 6))
+    return min(spherical_harmonics(from_degrees(t, p), shape) for t, p in angles)
 
 
 def visible_share(shape: Any) -> float:

@@ -10,7 +10,7 @@ from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.image import Texels, read_image, texel_sky
 from montecarlo_brdf.scene.skies import Sky
 from montecarlo_brdf.scene.toml import Table
-from montecarlo_brdf.vectors import NORMAL, Vec, from_degrees
+from montecarlo_brdf.vectors import NORMAL, Vec
 
 KINDS = ("constant", "linear", "gradient", "quadratic", "cosine", "cap", "harmonics", "image")
 Colour = float | tuple[float, ...]
@@ -129,16 +129,10 @@ def _harmonics(table: Table) -> RawSky:
             "coefficients",
         )
     shapes = tuple(skies.Harmonics(r + (0.0,) * (25 - len(r))) for r in rows)
-    least = min(lowest(s) for s in shapes)
+    least = min(skies.lowest(s, 90) for s in shapes)
     if least < -1e-9:
         raise table.error(f"negative radiance: the harmonics fall to {least:.3g}", "coefficients")
     return RawSky(shapes, tuple(1.0 if any(r) else 0.0 for r in rows))
-
-
-def lowest(shape: skies.Harmonics) -> float:
-    """The smallest radiance on a grid of the upper hemisphere."""
-    angles = ((t, p) for t in range(0, 90, 3) for p in range(0, 360, 6))
-    return min(skies.spherical_harmonics(from_degrees(t, p), shape) for t, p in angles)
 
 
 def _image(table: Table) -> RawSky:

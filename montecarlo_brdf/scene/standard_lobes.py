@@ -7,12 +7,14 @@ and a highlight without the light's cosine. In this form its albedo and its ener
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.model import Model, build
 from montecarlo_brdf.models._half_lobe import half_power_pdf, sample_half_power
 from montecarlo_brdf.models._microfacet import half_power, half_sums
+from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.standard import Standard
 from montecarlo_brdf.scene.surface import Lobe, Surface
 from montecarlo_brdf.special import power
@@ -77,6 +79,16 @@ def _specular(s: Standard) -> Lobe:
     return Lobe(
         "specular", s.specular, _model("blinn", blinn, **functions), (Gloss(s.gloss),) * count
     )
+
+
+def as_lobes(scene: Scene) -> Scene:
+    """The standard lighting equation as a surface of lobes; other scenes as they are."""
+    if not isinstance(scene.surface, Standard):
+        return scene
+    ambient = zip(scene.emission, scene.ambient, scene.surface.ambient_colour, strict=True)
+    glow = tuple(e + a * k for e, a, k in ambient)
+    dark = (0.0,) * scene.channels
+    return replace(scene, surface=surface_of(scene.surface), emission=glow, ambient=dark)
 
 
 def mend(s: Standard) -> str:

@@ -16,7 +16,7 @@ from montecarlo_brdf.scene import claims as scene_claims
 from montecarlo_brdf.scene.plan import ScenePlan
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.standard import Standard
-from montecarlo_brdf.scene.standard_lobes import mend
+from montecarlo_brdf.scene.standard_lobes import as_lobes, mend
 from montecarlo_brdf.verify.common import (
     SAMPLES,
     Progress,
@@ -50,7 +50,7 @@ def radiance(
     sampling = planned(points, samples, seed, threads)
     check_tolerance(tolerance)
     started = time.perf_counter()
-    for lobe in scene_claims.as_lobes(scene).surface.lobes:  # type: ignore[union-attr]
+    for lobe in as_lobes(scene).surface.lobes:  # type: ignore[union-attr]
         for p in dict.fromkeys(lobe.sets):
             probe.check(lobe.model, p)
     plan = scene_claims.plan_of(scene, skip)

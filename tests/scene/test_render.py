@@ -1,5 +1,6 @@
 """The sphere: flat in a furnace, equal to `radiance` at its pixels, written whole or not at all."""
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -9,14 +10,17 @@ import pytest
 from scenes import EXAMPLES, written
 
 import montecarlo_brdf as mb
+from montecarlo_brdf import loading
+from montecarlo_brdf.references import _irradiance
 from montecarlo_brdf.report.spheres import difference
 from montecarlo_brdf.scene import truth
+from montecarlo_brdf.scene.camera import disk_of, in_world
 from montecarlo_brdf.scene.make import scene_of
 from montecarlo_brdf.scene.read import read_scene
 from montecarlo_brdf.scene.render import render
 from montecarlo_brdf.vectors import from_degrees
 
-LOSSLESS = [("lambert", {"albedo": 1.0}), ("eon", {"albedo": 1.0, "roughness": 1.0})]
+LOSSLESS = [(name, p) for name in loading.names() for p in mb.load(name).lossless or ()]
 
 
 def _furnace(name: str, size: int = 96, **values: Any) -> Any:
@@ -25,11 +29,16 @@ def _furnace(name: str, size: int = 96, **values: Any) -> Any:
     return render(scene_of(model.of(p), p, "constant:0.5"), size=size)
 
 
-@pytest.mark.parametrize(("name", "values"), LOSSLESS)
-def test_lossless_spheres_disappear(name: str, values: dict[str, float]) -> None:
-    sphere = _furnace(name, **values)
-    assert np.abs(sphere.values - 0.5).max() < 1e-4
-    assert sphere.error < 1e-4
+@pytest.mark.parametrize(("name", "p"), LOSSLESS, ids=str)
+def test_lossless_spheres_disappear(name: str, p: Any) -> None:
+    """Lambert, EON, Kulla-Conty and, seen from one side only, Turquin."""
+    sphere = _furnace(name, **p._asdict())
+    assert np.abs(sphere.values - 0.5).max() < 1e-5
+    assert sphere.error < 1e-5
+
+
+def test_lossless_models_are_found() -> None:
+    assert {"lambert", "eon", "ggx_kulla_conty"} <= {name for name, _ in LOSSLESS}
 
 
 def test_a_gain_shows_in_the_difference() -> None:
@@ -64,10 +73,73 @@ def test_pixels_are_the_radiance_of_their_place(tmp_path: Path) -> None:
     assert standard.name and written(tmp_path, (EXAMPLES / "standard.toml").read_text())
 
 
+def _lamp(file: Path, sky: str) -> Any:
+    return written(file, f'[surface]\nmodel = "lambert"\nalbedo = 1.0\n[environment]\n{sky}\n')
+
+
+@pytest.mark.parametrize("camera", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])
+def test_a_sphere_sees_the_sky_below_the_horizon(camera: Any, tmp_path: Path) -> None:
+    """A cap that does not light a flat surface lights the sphere's lower side."""
+    scene = _lamp(tmp_path, 'kind = "cap"\nhalf_angle_deg = 20\naxis = {tilt_deg = 130}')
+    sphere = render(scene, size=9, samples=1 << 12, camera=camera)
+    normals = np.zeros((9, 9, 3))
+    normals[sphere.inside] = in_world(disk_of(9)[1], camera)
+    axis = np.array(from_degrees(130.0))
+    for n, value in zip(normals[sphere.inside], sphere.values[sphere.inside, 0], strict=True):
+        exact = _irradiance.cap(math.radians(20.0), math.acos(float(n @ axis))) / math.pi
+        assert value == pytest.approx(exact, abs=5e-4)
+
+
+def test_a_sphere_sees_all_of_an_image(tmp_path: Path) -> None:
+    """Texels below the horizon against a sum over small cells."""
+    texels = np.random.default_rng(2).random((8, 16))
+    texels[6, 3] = 20.0
+    np.save(tmp_path / "sky.npy", texels)
+    scene = _lamp(tmp_path, 'kind = "image"\nfile = "sky.npy"')
+    camera = (0.0, -1.0, 0.0)
+    sphere = render(scene, size=7, samples=1 << 14, camera=camera)
+    theta = (np.arange(400) + 0.5) * np.pi / 400.0
+    phi = (np.arange(800) + 0.5) * 2.0 * np.pi / 800.0 - np.pi
+    t, p = np.meshgrid(theta, phi, indexing="ij")
+    w = np.stack([np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)], axis=-1)
+    light = np.kron(texels, np.ones((50, 50))) * np.sin(t) * 2.0 * (np.pi / 400.0) ** 2 / 2.0
+    for n, value in zip(
+        in_world(disk_of(7)[1], camera), sphere.values[sphere.inside, 0], strict=True
+    ):
+        exact = np.sum(light * np.maximum(0.0, w @ n)) / np.pi
+        assert value == pytest.approx(exact, rel=2e-3, abs=1e-3)
+
+
+def test_negative_sky_below_the_horizon(cli: Callable[..., Any], tmp_path: Path) -> None:
+    _lamp(tmp_path, 'kind = "linear"\na = 1\nb = 2')
+    png = tmp_path / "s.png"
+    outcome = cli("render", str(tmp_path / "scene.toml"), "-o", str(png), "--size", "16")
+    assert (outcome.code, outcome.err.count("\n")) == (2, 1)
+    assert "negative radiance: below the horizon" in outcome.err
+    assert not png.exists()
+
+
 def test_threads_change_nothing() -> None:
     scene = read_scene(EXAMPLES / "blinn_phong.toml")
     one, two = (render(scene, size=64, samples=16, threads=t) for t in (1, 2))
     assert np.array_equal(one.values, two.values)
+
+
+def test_two_lists_make_a_grid(cli: Callable[..., Any], tmp_path: Path) -> None:
+    png, npy = tmp_path / "s.png", tmp_path / "s.npy"
+    arguments = ["--model", "lambert", "--furnace", "-p", "albedo=0.5,0.7,1", "--size", "16"]
+    assert cli("render", *arguments, "-o", str(npy)).code == 0
+    assert np.load(npy).shape == (16, 48, 1)
+    scene = tmp_path / "s.toml"
+    scene.write_text('[surface]\nmodel = "oren_nayar"\n[environment]\nkind = "constant"\n')
+    grid = [str(scene), "-p", "albedo=0.5,1", "-p", "sigma=0:0.5:3", "--size", "16"]
+    outcome = cli("render", *grid, "-o", str(npy), "-o", str(png))
+    assert outcome.code == 0, outcome
+    values = np.load(npy)
+    assert values.shape == (32, 48, 1)
+    ball = values[:16] != 1.0  # not the sky behind it
+    assert np.allclose(values[16:][ball], 2.0 * values[:16][ball], atol=1e-5)
+    assert "albedo = 0.5, sigma = 0.25: L_o from" in outcome.out
 
 
 def test_files(cli: Callable[..., Any], tmp_path: Path) -> None:

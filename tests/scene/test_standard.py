@@ -9,7 +9,7 @@ from scenes import written
 from montecarlo_brdf.references._phong import single_axis
 from montecarlo_brdf.scene import claims, truth
 from montecarlo_brdf.scene.standard import Standard, shade
-from montecarlo_brdf.scene.standard_lobes import surface_of
+from montecarlo_brdf.scene.standard_lobes import as_lobes, surface_of
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.radiance import radiance
 
@@ -107,7 +107,7 @@ def test_energy_is_read_and_mended(tmp_path: Any) -> None:
         mu, kd = from_degrees(f.where["theta_o_deg"])[2], (0.6, 0.3, 0.1)[f.where["channel"]]
         exact = math.pi * kd + 0.4 * 2.0 * math.pi / 10.0 * single_axis(mu, 9.0)
         assert f.value == pytest.approx(exact, rel=3e-3)
-        furnace = claims.as_lobes(scene.under_constant_light(1.0))
+        furnace = as_lobes(scene.under_constant_light(1.0))
         truth_now = truth.reference(
             furnace, from_degrees(f.where["theta_o_deg"]), f.where["channel"]
         )
