@@ -1,19 +1,26 @@
-"""Detection matrix: every known-bad BRDF of tests/mutants against every check, at default settings.
+"""Detection matrix: every known-bad BRDF of tests/mutants against every check, default settings.
 
-    python scripts/detection_matrix.py [NAME ...]
+    python scripts/detection_matrix.py [NAME ...]            verdicts, as far as they are missing
+    python scripts/detection_matrix.py --time [--minutes 3]  seconds of a warm `brdf-check run`
 
-Resumable: what scripts/results/detection_matrix.json holds of unchanged files and the same version
-is not run again. Every mutant runs twice: once with few samples to compile, then timed. Writes the
-table docs/detection_matrix.md. A mutant's docstring says which check is meant for it ("caught by:")
-and, where a hint can name its cause, words of that hint ("named by:").
+Resumable: what scripts/results/detection_matrix.json holds of an unchanged mutant and an unchanged
+check (with what it imports of `checks` and `report`) is not run again. Writes
+docs/detection_matrix.md. A mutant's docstring says which check is meant for it ("caught by:") and
+what was done to it ("cause:"); tests/mutants/causes.toml says which words of a hint name a cause.
 """
 from __future__ import annotations
 
+import argparse
+import ast
+import functools
 import hashlib
 import json
 import re
+import subprocess
 import sys
 import time
+import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,19 +28,40 @@ import montecarlo_brdf
 from montecarlo_brdf import checks
 
 ROOT = Path(__file__).parents[1]
+PACKAGE = Path(montecarlo_brdf.__file__).parent
 MUTANTS = ROOT / "tests" / "mutants"
 RESULTS = ROOT / "scripts" / "results" / "detection_matrix.json"
 TABLE = ROOT / "docs" / "detection_matrix.md"
-WARM = 1 << 12  # samples of the run that compiles
 MARKS = {"fail": "**x**", "inconclusive": "?", "pass": "·", "skipped": " "}
+CAUSES = tomllib.loads((MUTANTS / "causes.toml").read_text(encoding="utf-8"))
+LIMIT = 10.0  # seconds that a mutant may take
 
 
-def sources() -> str:
-    """A digest of the checks, so that a change of any of them runs everything again."""
-    digest = hashlib.sha256()
-    for path in sorted((ROOT / "montecarlo_brdf").rglob("checks/*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:12]
+def digest(*texts: bytes) -> str:
+    """A short hash."""
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()[:12]
+
+
+@functools.cache
+def reached(path: Path) -> frozenset[Path]:
+    """The files of `checks` and `report` that a file of the package imports, itself included."""
+    found = {path}
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        module = getattr(node, "module", None) or ""
+        parts = module.split(".")
+        if isinstance(node, ast.ImportFrom) and parts[1:2] in (["checks"], ["report"]):
+            names = [[*parts[1:], alias.name] for alias in node.names] + [parts[1:]]
+            files = {PACKAGE.joinpath(*n).with_suffix(".py") for n in names}
+            for file in files - found:
+                found |= reached(file) if file.is_file() else set()
+    return frozenset(found)
+
+
+@functools.cache
+def version(check: str) -> str:
+    """Changes with a check and with how it is judged."""
+    files = reached(PACKAGE / "checks" / f"{check}.py") | reached(PACKAGE / "report" / "judge.py")
+    return digest(*(f.read_bytes() for f in sorted(files)))
 
 
 def said(path: Path, what: str) -> str:
@@ -42,76 +70,115 @@ def said(path: Path, what: str) -> str:
     return found[0] if found else ""
 
 
-def examined(path: Path) -> dict[str, Any]:
-    """What every check says of a mutant, with samples and seconds."""
-    model = montecarlo_brdf.load(str(path))
-    montecarlo_brdf.run(model, samples=WARM)
-    row: dict[str, Any] = {"caught_by": said(path, "caught by"), "checks": {}}
+def mutants() -> Iterator[Path]:
+    """All files of the corpus."""
+    return (p for p in sorted(MUTANTS.glob("*.py")) if not p.stem.startswith("test_"))
+
+
+def examine(path: Path, row: dict[str, Any]) -> None:
+    """What every check says of a mutant, where that is not known yet."""
     for name in checks.names():
-        start = time.perf_counter()
-        report = montecarlo_brdf.run(model, names=[name])
-        findings = [f for r in report.results for f in r.findings]
-        row["checks"][name] = {**summary(findings), "seconds": time.perf_counter() - start}
-    hints = [h for c in row["checks"].values() for h in c["hints"]]
-    named = said(path, "named by")
-    row["hint"] = next((h for h in hints if named and named in h), None)
-    return row
+        key = digest(path.read_bytes(), version(name).encode())
+        if row.get(name, {}).get("key") != key:
+            report = montecarlo_brdf.run(montecarlo_brdf.load(str(path)), names=[name])
+            findings = [f for r in report.results for f in r.findings]
+            row[name] = {"key": key, **summary(findings)}
 
 
 def summary(findings: list[Any]) -> dict[str, Any]:
     """The worst verdict of a check, its samples, and the hints of what it refutes."""
     verdicts = [f.verdict for f in findings]
-    worst = next((v for v in MARKS if v in verdicts), "skipped")
     refuted = [f for f in findings if f.verdict == "fail"]
     return {
-        "verdict": worst,
+        "verdict": next((v for v in MARKS if v in verdicts), "skipped"),
         "samples": sum(f.samples or 0 for f in findings),
         "hints": list(dict.fromkeys(f.hint for f in refuted if f.hint)),
     }
 
 
+def timed(path: Path) -> dict[str, Any]:
+    """Wall seconds of a whole process that runs every check, kernels being there already."""
+    command = [sys.executable, "-m", "montecarlo_brdf", "run", "--model", str(path)]
+    subprocess.run(command, capture_output=True, check=False)
+    start = time.perf_counter()
+    code = subprocess.run(command, capture_output=True, check=False).returncode
+    return {"seconds": round(time.perf_counter() - start, 2), "exit": code}
+
+
+def named(path: Path, row: dict[str, Any]) -> str:
+    """The hint that names a mutant's cause, if there is one."""
+    words = CAUSES.get(said(path, "cause"))
+    hints = [h for name in checks.names() for h in row[name]["hints"]]
+    return next((h for h in hints if words and re.search(words, h)), "")
+
+
 def table(rows: dict[str, Any]) -> str:
     """The results as Markdown."""
-    names = checks.names()
-    caught = [n for n, r in rows.items() if r["checks"][r["caught_by"]]["verdict"] == "fail"]
-    hinted = [n for n, r in rows.items() if r["hint"]]
-    slowest = max(sum(c["seconds"] for c in r["checks"].values()) for r in rows.values())
+    names, paths = checks.names(), list(mutants())
+    caught = [p for p in paths if rows[p.stem][said(p, "caught by")]["verdict"] == "fail"]
+    hinted = [p for p in paths if named(p, rows[p.stem])]
     lines = [
         "# Detection matrix",
         "",
         "Known-bad BRDFs (`tests/mutants`) against all checks at default settings. **x** refuted,",
-        "? undecided, · held; the check meant for a mutant stands in its second column.",
-        "Written by `python scripts/detection_matrix.py`; values, samples and hints are in",
-        "`scripts/results/detection_matrix.json`.",
+        "? undecided, · held, nothing: does not apply. **meant** is the check meant for a mutant,",
+        "**cause** whether a hint names what was done to it, by the words of",
+        "`tests/mutants/causes.toml`. Samples are those of all checks together. Written by",
+        "`python scripts/detection_matrix.py`, seconds by `--time`; verdicts, samples and hints",
+        "are in `scripts/results/detection_matrix.json`.",
         "",
-        f"{len(caught)} of {len(rows)} are refuted by the check meant for them,",
-        f"{len(hinted)} with a hint that names the cause.",
-        f"Slowest, all checks, measured on the machine of this run: {slowest:.1f} s.",
+        f"{len(caught)} of {len(paths)} are refuted by the check meant for them; a hint names the",
+        f"cause of {len(hinted)}.",
+        *_times(rows, paths),
         "",
-        "| mutant | meant | " + " | ".join(names) + " | cause named |",
-        "|---|---|" + "---|" * (len(names) + 1),
+        f"| mutant | meant | {' | '.join(names)} | samples | seconds | what was done | cause |",
+        "|---|---|" + "---|" * (len(names) + 4),
     ]
-    for n, r in rows.items():
-        marks = [MARKS[r["checks"][c]["verdict"]] for c in names]
-        said_so = "yes" if r["hint"] else ""
-        lines.append(f"| {n} | {r['caught_by']} | " + " | ".join([*marks, said_so]) + " |")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *(_line(p, rows[p.stem], names) for p in paths)]) + "\n"
 
 
-def main(chosen: list[str]) -> None:
+def _times(rows: dict[str, Any], paths: list[Path]) -> list[str]:
+    seconds = [rows[p.stem]["run"]["seconds"] for p in paths if "run" in rows[p.stem]]
+    if not seconds:
+        return []
+    slow = sum(s > LIMIT for s in seconds)
+    return [
+        f"Seconds of a whole warm `brdf-check run` on a quiet machine, {len(seconds)} timed:",
+        f"median {sorted(seconds)[len(seconds) // 2]:.1f}, slowest {max(seconds):.1f}, "
+        f"{slow} above {LIMIT:g}.",
+    ]
+
+
+def _line(path: Path, row: dict[str, Any], names: list[str]) -> str:
+    marks = [MARKS[row[c]["verdict"]] for c in names]
+    samples = sum(row[c]["samples"] for c in names)
+    seconds = f"{row['run']['seconds']:.1f}" if "run" in row else ""
+    cells = [path.stem, said(path, "caught by"), *marks, f"{samples:.1e}", seconds]
+    return f"| {' | '.join([*cells, said(path, 'cause'), 'yes' if named(path, row) else ''])} |"
+
+
+def main() -> None:
     """Run what is missing, one mutant after the other, and write after each."""
-    known = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
-    version, rows = sources(), {}
-    for path in sorted(p for p in MUTANTS.glob("*.py") if not p.stem.startswith("test_")):
-        key = hashlib.sha256(path.read_bytes()).hexdigest()[:12] + version
-        old = known.get(path.stem)
-        missing = not old or (old["key"] != key and (not chosen or path.stem in chosen))
-        rows[path.stem] = {"key": key, **examined(path)} if missing else old
-        print(path.stem, "examined" if missing else "known", flush=True)
-        RESULTS.parent.mkdir(exist_ok=True)
-        RESULTS.write_text(json.dumps({**known, **rows}, indent=1, sort_keys=True) + "\n")
-    TABLE.write_text(table(rows), encoding="utf-8")
+    parser = argparse.ArgumentParser()
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--time", action="store_true")
+    parser.add_argument("--minutes", type=float, default=1e9)
+    options = parser.parse_args()
+    rows = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
+    until = time.monotonic() + 60.0 * options.minutes
+    for path in mutants():
+        if options.names and path.stem not in options.names:
+            continue
+        row = rows.setdefault(path.stem, {})
+        if not options.time:
+            examine(path, row)
+        elif "run" not in row and time.monotonic() < until:
+            row["run"] = timed(path)
+        print(path.stem, row.get("run", ""), flush=True)
+        RESULTS.write_text(json.dumps(rows, indent=1, sort_keys=True) + "\n")
+    if all(set(checks.names()) <= set(rows.get(p.stem, {})) for p in mutants()):
+        TABLE.write_text(table(rows), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

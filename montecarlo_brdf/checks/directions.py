@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from montecarlo_brdf.checks import interiors
 from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.integration.scattered import Rows
 
 Array = Any
 LAST = math.nextafter(0.5 * math.pi, 0.0)  # 90 degrees less an ulp: cos = 2.8e-16
@@ -23,6 +25,8 @@ AZIMUTHS = (0.0, 1e-7, 0.5, 0.5 * math.pi, 2.5, math.pi - 1e-7, math.pi, 4.0)
 RANDOM = 20_000
 LOBE = 20_000
 SPECIAL = 2_000
+SCATTERED = 100_000  # pairs with parameters of their own
+PREPARED = 32  # different ones where the model prepares them
 MIRROR = np.array([-1.0, -1.0, 1.0])
 HIGHEST_COSINE = 1e-6  # ordinary random directions keep clear of the horizon by this
 
@@ -88,6 +92,16 @@ def all_pairs(case: Case, p: Any, rng: Any) -> tuple[Array, Array]:
     """Edges, random pairs, special pairs and pairs along the lobe."""
     kinds = [edge_pairs(), random_pairs(rng), special_pairs(rng), lobe_pairs(case, p, rng)]
     return np.concatenate([k[0] for k in kinds]), np.concatenate([k[1] for k in kinds])
+
+
+def scattered_pairs(case: Case, rng: Any, n: int = SCATTERED) -> tuple[Array, Array, Rows]:
+    """Random pairs, each with free parameters of its own, now and then at the ends of their ranges:
+    what goes wrong in a corner of directions and parameters together."""
+    wo, wi = random_pairs(rng, n)
+    t = np.clip(1.1 * rng.random((n, len(case.free))) - 0.05, 0.0, 1.0)
+    if case.model.prepare:
+        t = t[np.arange(n) % PREPARED]
+    return wo, wi, interiors.rows(case, t)
 
 
 def place(wo: Array, wi: Array) -> dict[str, float]:

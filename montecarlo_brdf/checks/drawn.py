@@ -13,7 +13,7 @@ import numpy as np
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Exact
-from montecarlo_brdf.checks.hints import shape_named
+from montecarlo_brdf.checks.hints import moved_named, shape_named, wider_named
 
 NAME = "pdf"  # whose streams these are
 STEP = 1e-5
@@ -54,25 +54,41 @@ def chooses(case: Case, theta: float) -> bool:
 
 
 def faults(case: Case, theta: float) -> Exact:
-    """How many draws are not finite, not of unit length, or have no density."""
+    """How many draws are not finite, not of unit length, or have no density.
+
+    Numbers exactly at an end of [0, 1) may give a direction where pdf and f are both 0, as u = 0
+    does for u^(1/(n + 1)): no light, with probability 0. It is told, not refuted.
+    """
     functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
     rng = case.random(NAME, "edges", theta)
-    u = np.concatenate([_edges(), rng.random((POINTS, 3))])
+    edges = _edges()
+    u = np.concatenate([edges, rng.random((POINTS, 3))])
     w, _ = functions.sample(wo, u)
     kinds = {"not finite": ~np.isfinite(w).all(axis=1)}
     length = np.sqrt(np.sum(np.where(np.isfinite(w), w, 0.0) ** 2, axis=1))
     above = ~kinds["not finite"] & (w[:, 2] > 0.0)
     kinds["not of unit length"] = above & (np.abs(length - 1.0) > UNIT_TOLERANCE)
+    dark = np.zeros(len(u), dtype=bool)
     if case.model.pdf is not None:
-        density = functions.pdf(wo, np.where(above[:, None], w, wo))
-        kinds["with a pdf that is not positive and finite"] = above & ~(
-            np.isfinite(density) & (density > 0.0)
+        up = np.where(above[:, None], w, wo)
+        density = functions.pdf(wo, up)
+        dark[: len(edges)] = ((density == 0.0) & above & (functions.f(wo, up) == 0.0))[: len(edges)]
+        kinds["with a pdf that is not positive and finite"] = (
+            above & ~dark & ~(np.isfinite(density) & (density > 0.0))
         )
     counts = {name: int(bad.sum()) for name, bad in kinds.items()}
     said = ", ".join(f"{n} draws {name}" for name, n in counts.items() if n)
     first = next((int(np.argmax(bad)) for bad in kinds.values() if bad.any()), 0)
     hint = f"{said} (first at u = {tuple(float(v) for v in u[first])})" if said else None
-    return Exact(float(sum(counts.values())), points=len(u), hint=hint)
+    return Exact(float(sum(counts.values())), points=len(u), note=_told(u[dark]), hint=hint)
+
+
+def _told(u: Any) -> str | None:
+    """That f/pdf is 0/0 at some ends of [0, 1), where that is so."""
+    if not len(u):
+        return None
+    ends = tuple(float(v) for v in u[0])
+    return f"f/pdf is 0/0 at exactly u = {ends}: a renderer must skip draws whose pdf is 0"
 
 
 def _edges() -> Any:
@@ -95,18 +111,27 @@ def jacobian(case: Case, theta: float) -> Exact:
     above = (w[:, 2] > 1e-3) & (np.minimum(sides[0][1], sides[1][1]) > 0.0)
     if above.sum() < 100:
         return Exact(0.0, points=0, note="hardly any draw lies above the horizon")
-    ratio = functions.pdf(wo, w[above]) * area[above]
+    w, area = w[above], area[above]
+    ratio = functions.pdf(wo, w) * area
     value = float(np.quantile(np.abs(ratio - 1.0), 1.0 - SEAMS))
-    return Exact(value, points=int(above.sum()), hint=_ratio(ratio, wo, w[above]))
+    hint = _ratio(functions.pdf, area, wo, w) if value > 1e-3 else None
+    return Exact(value, points=len(w), hint=hint)
 
 
-def _ratio(ratio: Any, wo: Any, w: Any) -> str:
-    """What pdf times Jacobian is, by its shape where that has a name."""
-    named = shape_named(ratio, np.broadcast_to(wo, w.shape), w)
+def _ratio(pdf: Any, area: Any, wo: Any, w: Any) -> str:
+    """What pdf times Jacobian is: by its shape where that has a name, by the directions that pdf
+    should have been asked for, by who is wider."""
+    density = pdf(wo, w)
+    ratio, many = density * area, np.broadcast_to(wo, w.shape)
+    named = shape_named(ratio, many, w)
     if named:
         return f"pdf / density of the draws = {named}"
+    meant = moved_named(lambda a, b: pdf(a, b) * area, many, w)
+    if meant:
+        return f"pdf is the density of the draws {meant}"
     low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
-    return f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
+    said = f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
+    return f"{said}{wider_named(ratio, density)}"
 
 
 def weight(case: Case, theta: float) -> Exact:
@@ -119,4 +144,7 @@ def weight(case: Case, theta: float) -> Exact:
     k = int(np.argmax(np.abs(ratio - 1.0)))
     named = shape_named(ratio, np.broadcast_to(wo, w[above].shape), w[above])
     hint = f"weight/(f cos/pdf) = {named or f'{float(np.median(ratio)):.6g} in the middle'}"
+    whole = expected * functions.pdf(wo, w[above])
+    if np.allclose(weight[above], whole, rtol=1e-6, atol=0.0):
+        hint = "the weight is f cos: it is not divided by the pdf"
     return Exact(float(abs(ratio[k] - 1.0)), points=int(above.sum()), hint=hint)

@@ -10,6 +10,8 @@ import functools
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 from montecarlo_brdf.checks import fitness, furnace, interiors, search, truth
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import BOUND_TOLERANCE, Claim, MeanClaim, Measurement, Reference
@@ -28,25 +30,31 @@ def claims(case: Case) -> Iterator[Claim]:
     for quantity, symbol in QUANTITIES.items():
         for k, one in enumerate(case.sets):
             space = search.Space(case._replace(p=one))
-            value = search.albedo(space, quantity)
-            spot = search.worst(space, value)
-            p, fixed = space.parameters(spot.at), search.direction(space, spot.at)
-            where = space.where(spot.at, "o" if quantity == "albedo" else "i")
-            where |= {"channel": k} if len(case.sets) > 1 else {}
-            yield MeanClaim(
-                f"worst {symbol} <= 1",
-                where,
-                "at most",
-                Reference(1.0, 0.0, "bound", "energy conservation"),
-                case.tolerated(BOUND_TOLERANCE),
-                functools.partial(_measure, case.model, quantity, p, fixed),
-                property=PROPERTY,
-                unit=furnace.units(case.model, p),
-                cause=_cause(space, spot, value),
-                fallback=functools.partial(
-                    truth.deterministic, case.model, p, fixed, quantity == "reverse"
-                ),
-            )
+            channel = {"channel": k} if len(case.sets) > 1 else {}
+            yield _claim(space, quantity, symbol, channel)
+
+
+def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, int]) -> Claim:
+    case, value = space.case, search.albedo(space, quantity)
+    spot = search.worst(space, value)
+    p, fixed = space.parameters(spot.at), space.vector(spot.at)
+    theta, phi = space.direction(spot.at)
+    reverse = quantity == "reverse"
+    there = case._replace(p=p, phi_o_deg=phi, samplers=None)
+    return MeanClaim(
+        f"worst {symbol} <= 1",
+        {**space.where(spot.at, "i" if reverse else "o"), **channel},
+        "at most",
+        Reference(1.0, 0.0, "bound", "energy conservation"),
+        case.tolerated(BOUND_TOLERANCE),
+        functools.partial(_reverse, case.model, p, fixed)
+        if reverse
+        else functools.partial(_albedo, there, theta),
+        property=PROPERTY,
+        unit=furnace.units(case.model, p),
+        cause=_cause(space, spot, value),
+        fallback=functools.partial(truth.deterministic, case.model, p, fixed, reverse),
+    )
 
 
 def _cause(space: search.Space, spot: search.Spot, value: search.Value) -> str:
@@ -54,19 +62,25 @@ def _cause(space: search.Space, spot: search.Spot, value: search.Value) -> str:
     case, theta = space.case, space.direction(spot.at)[0]
     if theta > 85.0 and spot.value > 1.5:
         return "grows towards grazing: look at masking and at cosines in denominators"
-    own = (*spot.at[: 1 + space.turning], *interiors.position(case, case.one).values())
-    if value(own, search.CLIMB) <= 1.0 + BOUND_TOLERANCE < spot.value:
+    own = np.array([(*spot.at[: 1 + space.turning], *space.own())])
+    if value(own, "climb")[0] <= 1.0 + BOUND_TOLERANCE < spot.value:
         changed = interiors.changed(case, space.parameters(spot.at)).items()
         return "not at the defaults, but with " + ", ".join(f"{k} = {v:.4g}" for k, v in changed)
-    return f"most at {theta:.1f} degrees: compare the normalisation, and weights that add up"
+    turned = f", azimuth {space.direction(spot.at)[1]:.0f}" if space.turning else ""
+    return f"most at {theta:.1f} degrees{turned}: compare the normalisation, weights that add up"
 
 
-def _measure(model: Model, quantity: str, p: Any, fixed: Vec, plan: Plan) -> list[Measurement]:
-    """By every sampler that is fit."""
-    chosen = samplers_of(model, quantity)
-    names = [integrand_name(model, quantity, s) for s in chosen]
-    row = estimates(model, p, fixed, names, plan, (NAME, quantity))[0]
-    sight = fitness.look(model, model.prepared(p), fixed)
+def _albedo(case: Case, theta: float, plan: Plan) -> list[Measurement]:
+    """A by every sampler, as `furnace` measures it: its kernel is there already."""
+    return furnace.measure(case, theta, plan)[0]
+
+
+def _reverse(model: Model, p: Any, wi: Vec, plan: Plan) -> list[Measurement]:
+    """R by every sampler."""
+    chosen = samplers_of(model, "reverse")
+    names = [integrand_name(model, "reverse", s) for s in chosen]
+    row = estimates(model, p, wi, names, plan, (NAME, "reverse"))[0]
+    sight = fitness.look(model, model.prepared(p), wi)
     return [
         Measurement(s, e, fitness.reason_unfit(s, e, sight, None))
         for s, e in zip(chosen, row, strict=True)

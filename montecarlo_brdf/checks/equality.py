@@ -14,7 +14,7 @@ import numpy as np
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip
-from montecarlo_brdf.checks.hints import shape_named
+from montecarlo_brdf.checks.hints import dependence_named, moved_named, shape_named
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model
 
@@ -77,7 +77,22 @@ def difference(case: Case, p: Any, other: Model, q: Any, rng: Any) -> Exact:
     hint = None
     if relative[k] > TOLERANCE:
         hint = _remapped(ours, wo, wi, other, q) or _hint(ours, theirs, wo, wi, k)
+        more = _moved(case, p, other, q, rng) if "everywhere" not in hint else None
+        hint = f"{hint}; {more}" if more else hint
     return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
+
+
+def _moved(case: Case, p: Any, other: Model, q: Any, rng: Any) -> str | None:
+    """What turning or swapping directions says about the difference."""
+    wo, wi = directions.random_pairs(rng, 400)
+    ordinary = (wo[:, 2] > 0.1) & (wi[:, 2] > 0.1)
+    wo, wi = wo[ordinary], wi[ordinary]
+    one, two = pointwise(case.model, p).f, pointwise(other, q).f
+    with np.errstate(divide="ignore", invalid="ignore"):
+        meant = moved_named(lambda a, b: one(wo, wi) / two(a, b), wo, wi)
+        if meant:
+            return f"it is {other.name} {meant}"
+        return dependence_named(lambda a, b: one(a, b) / two(a, b), wo, wi)
 
 
 def _remapped(ours: Any, wo: Any, wi: Any, other: Model, q: Any) -> str | None:

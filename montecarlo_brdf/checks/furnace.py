@@ -9,10 +9,10 @@ and a non-reciprocal model's R(wi) > 1.
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
-from montecarlo_brdf.checks import fitness, search, truth
+from montecarlo_brdf.checks import fitness, interiors, search, truth
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import (
     AGREEMENT_TOLERANCE,
@@ -54,8 +54,7 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
         scale = abs(expected.value) if expected else 1.0
         source = functools.partial(of_channel, measured, k)
         quadrature = functools.partial(truth.deterministic, case.model, one, case.wo(theta))
-        other = expected is not None and not expected.kind.startswith("quadrature")
-        more = other and case.samplers is None  # a quadrature of f says nothing about itself
+        more = _fallback(case, one, theta, expected) if case.samplers is None else None
         yield MeanClaim(
             "A",
             where,
@@ -64,7 +63,7 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
             case.tolerated(AGREEMENT_TOLERANCE) * scale,
             source,
             unit=units(case.model, one),
-            fallback=quadrature if more else None,
+            fallback=more,
         )
         yield MeanClaim(
             "A <= 1",
@@ -79,16 +78,34 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
         )
 
 
+def _fallback(
+    case: Case, one: Any, theta: float, expected: Reference | None
+) -> Callable[[], Measurement] | None:
+    """What is asked where samples leave "A equals its reference" open: a quadrature of f, which
+    says nothing about itself; then draws that follow the lobe where the model has no sampler."""
+    model, wo = case.model, case.wo(theta)
+    if expected is not None and not expected.kind.startswith("quadrature"):
+        return functools.partial(truth.deterministic, model, one, wo)
+    if samplers_of(model)[-1] == "own":
+        return None
+    from montecarlo_brdf.checks import in_slopes
+
+    return functools.partial(in_slopes.albedo, model, one, wo, case.seed)
+
+
 def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
     """A where it is farthest from `known(cos_theta_o, p)`, of all angles and free parameters."""
+    import numpy as np
+
     space = search.Space(case)
     value = search.albedo(space, "albedo")
 
-    def expected(at: search.At) -> float:
-        return known(search.direction(space, at)[2], space.parameters(at))
+    def expected(at: Any) -> float:
+        return known(space.vector(at)[2], space.parameters(at))
 
-    def deviation(at: search.At, plan: Plan) -> float:
-        return abs(value(at, plan) - expected(at)) / max(abs(expected(at)), SMALLEST)
+    def deviation(at: Any, stage: str) -> Any:
+        due = np.array([expected(one) for one in at.tolist()])
+        return np.abs(value(at, stage) - due) / np.maximum(np.abs(due), SMALLEST)
 
     at = search.worst(space, deviation).at
     theta, phi = space.direction(at)
@@ -102,7 +119,14 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
         functools.partial(of_channel, functools.cache(functools.partial(measure, there, theta)), 0),
         property="reference",
         unit=units(case.model, there.one),
+        cause=_elsewhere(case, there.one, lambda p: known(there.wo(theta)[2], p)),
     )
+
+
+def _elsewhere(case: Case, p: Any, known: Any) -> str:
+    """Where it deviates most, and how much there should be."""
+    changed = ", ".join(f"{k} = {v:.4g}" for k, v in interiors.changed(case, p).items())
+    return f"not at the defaults, but with {changed}: {known(p):.6g} is expected there"
 
 
 def _weights(case: Case, one: Any, where: dict[str, Any]) -> Claim:

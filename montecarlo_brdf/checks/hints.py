@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ FACTORS = {
     2.0 * math.pi: "a factor 2 pi too much: the pdf of uniform hemisphere sampling",
 }
 CLOSE = 2e-3
+MIRRORED = np.array([-1.0, -1.0, 1.0])
 
 
 def hint(claim: MeanClaim, value: float) -> str | None:
@@ -75,6 +77,82 @@ def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
             cause = _cause(name) if name else factor_named(middle) or _cause(name)
             return f"{middle:.6g}{name} everywhere: {cause}"
     return None
+
+
+#: directions that a function is asked for by mistake -> how
+MOVES: dict[str, Callable[[Any, Any], tuple[Any, Any]]] = {
+    "with wo and wi swapped": lambda wo, wi: (wi, wo),
+    "with wi turned by 180 degrees: around wo, or its mirror direction": lambda wo, wi: (
+        wo,
+        wi * MIRRORED,
+    ),
+    "turned by 90 degrees: tangent and bitangent are swapped": lambda wo, wi: (
+        _quarter(wo),
+        _quarter(wi),
+    ),
+}
+
+
+def _quarter(w: Any) -> Any:
+    return np.stack([-w[:, 1], w[:, 0], w[:, 2]], axis=-1)
+
+
+def moved_named(ratio: Any, wo: Any, wi: Any) -> str | None:
+    """How directions must be changed for ratio(wo, wi) to become 1, if it is one of the usual ways
+    of confusing them."""
+    for name, move in MOVES.items():
+        values = ratio(*move(wo, wi))
+        if len(values) >= 100 and np.quantile(np.abs(values - 1.0), 0.9) < CLOSE:
+            return name
+    return None
+
+
+def wider_named(ratio: Any, density: Any) -> str:
+    """Whether a density is too high where it is high: then its lobe is narrower than what it is
+    held against."""
+    order = np.argsort(density)
+    outer, inner = (np.median(part) for part in np.array_split(ratio[order], 2))
+    if not abs(inner - outer) > 5.0 * CLOSE * abs(inner + outer):
+        return ""
+    kind = "narrower" if inner > outer else "wider"
+    return f": pdf is {kind} than the draws, compare their roughness or exponent"
+
+
+def dependence_named(ratio: Any, wo: Any, wi: Any) -> str | None:
+    """What the deviation of two functions depends on, asked by moving the directions: on the half
+    vector alone (distribution, Fresnel) or on the two polar angles alone (masking, cosines)."""
+    before = ratio(wo, wi)
+    spread = np.nanquantile(before, 0.9) - np.nanquantile(before, 0.1)
+    if not spread > CLOSE:
+        return None
+    for said, moved in (
+        ("the half vector alone: look at the distribution and Fresnel", _about_half(wo, wi)),
+        ("the polar angles alone: look at masking and cosines", (wo, _about_normal(wi))),
+    ):
+        usable = (moved[0][:, 2] > 0.05) & (moved[1][:, 2] > 0.05)
+        change = np.abs(ratio(*moved) - before)[usable]
+        change = change[np.isfinite(change)]
+        if len(change) >= 50 and np.quantile(change, 0.9) < 1e-6 * max(1.0, float(spread)):
+            return f"the ratio depends on {said}"
+    return None
+
+
+def _about_half(wo: Any, wi: Any) -> tuple[Any, Any]:
+    """Both directions turned by 0.7 rad about their half vector, which stays."""
+    h = wo + wi
+    h = h / np.sqrt(np.sum(h * h, axis=1))[:, None]
+    c, s = math.cos(0.7), math.sin(0.7)
+
+    def turned(w: Any) -> Any:
+        along = np.sum(w * h, axis=1)[:, None] * h
+        return c * w + s * np.cross(h, w) + (1.0 - c) * along
+
+    return turned(wo), turned(wi)
+
+
+def _about_normal(w: Any) -> Any:
+    c, s = math.cos(0.7), math.sin(0.7)
+    return np.stack([c * w[:, 0] - s * w[:, 1], s * w[:, 0] + c * w[:, 1], w[:, 2]], axis=-1)
 
 
 def _cause(shape: str) -> str:

@@ -7,18 +7,19 @@ from collections.abc import Iterator
 from typing import Any
 
 from montecarlo_brdf.checks.case import Case, search_range
+from montecarlo_brdf.integration import scattered
 from montecarlo_brdf.sampling.points import sobol
 
 INTERIORS = 8
 WIDE = 50.0  # a range whose ends differ by more than this factor is searched by its logarithm
 
 
-def between(low: float, high: float, t: float) -> float:
-    """A value at t in [0, 1] of a range, by its logarithm where the range is wide."""
+def between(low: float, high: float, t: Any) -> Any:
+    """A value at t in [0, 1] of a range, by its logarithm where the range is wide; or many."""
     if low > 0.0 and high > WIDE * low:
-        return float(low * (high / low) ** t)
+        return low * (high / low) ** t
     if low == 0.0 and high > WIDE:
-        return math.expm1(t * math.log1p(high))
+        return (1.0 + high) ** t - 1.0
     return low + (high - low) * t
 
 
@@ -37,8 +38,19 @@ def share(low: float, high: float, value: float) -> float:
 def at(case: Case, t: dict[str, float]) -> Any:
     """The case's parameter set with the free parameters at positions t in [0, 1]."""
     ranges = {n: search_range(case.model, n) for n in case.free}
-    changed = {n: between(*ends, t[n]) for n, ends in ranges.items() if ends}
+    changed = {n: float(between(*ends, t[n])) for n, ends in ranges.items() if ends}
     return case.one._replace(**changed)
+
+
+def rows(case: Case, t: Any) -> scattered.Rows:
+    """Parameter sets as `at` makes them, for (n, free parameters) positions."""
+    ranges = [search_range(case.model, n) for n in case.free]
+    columns = {
+        n: between(*ends, t[:, k])
+        for k, (n, ends) in enumerate(zip(case.free, ranges, strict=True))
+        if ends
+    }
+    return scattered.rows(case.model, columns, case.one, len(t))
 
 
 def position(case: Case, p: Any) -> dict[str, float]:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import fitness, truth
+from montecarlo_brdf.checks import fitness, in_slopes, truth
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import (
     AGREEMENT_TOLERANCE,
@@ -53,7 +53,13 @@ def tilted_sky(w: Any) -> float:
     return 0.25 * c * c
 
 
+def either_sky(w: Any, which: float) -> float:
+    """The sky that a number chooses: both share their kernels."""
+    return cosine_sky(w) if which == 0.0 else tilted_sky(w)
+
+
 SKIES: dict[str, Callable[[Any], float]] = {"cos": cosine_sky, "tilted": tilted_sky}
+WHICH = {name: float(k) for k, name in enumerate(SKIES)}
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -74,7 +80,16 @@ def claims(case: Case) -> Iterator[Claim]:
                 case.tolerated(TOLERANCE) * abs(expected.value),
                 functools.partial(_measure, case, theta, name),
                 property=PROPERTY,
+                fallback=_fallback(case, theta, name),
             )
+
+
+def _fallback(case: Case, theta: float, name: str) -> Callable[[], Measurement] | None:
+    """Draws that follow the lobe, where the model has no sampler that does."""
+    if samplers_of(case.model)[-1] == "own":
+        return None
+    place = case.one, case.wo(theta), either_sky, WHICH[name]
+    return functools.partial(in_slopes.radiance, case.model, *place, case.seed)
 
 
 def _expected(case: Case, theta: float, sky: Any) -> Reference | None:
@@ -93,13 +108,13 @@ def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measuremen
     model, wo = case.model, case.wo(theta)
     chosen = samplers_of(model)
     functions = [getattr(integrands, integrand_name(model, "radiance", s)) for s in chosen]
-    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf, "SKY": SKIES[name]}
+    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf, "SKY": either_sky}
     subject = Subject(
         (model.name, *model.picks.values(), *map(repr, case.one), name),
         {k: v for k, v in bound.items() if v is not None},
         [model.prepared(case.one)],
     )
-    row = evaluate(subject, wo, functions, plan, (NAME,))[0]
+    row = evaluate(subject, (*wo, WHICH[name]), functions, plan, (NAME,))[0]
     sight = fitness.look(model, model.prepared(case.one), wo)
     return [
         Measurement(s, e, fitness.reason_unfit(s, e, sight, None))

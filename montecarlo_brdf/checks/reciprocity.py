@@ -15,6 +15,7 @@ import numpy as np
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
+from montecarlo_brdf.integration import scattered
 
 NAME = "reciprocity"
 QUESTION = "f(wo, wi) = f(wi, wo)?"
@@ -47,17 +48,36 @@ def worst(case: Case) -> Exact:
         found = (one if one.value > found.value or found.points == 0 else found)._replace(
             points=points
         )
+    if case.free:
+        p = _worst_set(case, case.random(NAME, "everywhere"))
+        one = _worst_of(case, p, case.random(NAME, "there"))
+        points = found.points + one.points + directions.SCATTERED
+        found = (one if one.value > found.value else found)._replace(points=points)
     return found
+
+
+def _worst_set(case: Case, rng: Any) -> Any:
+    """The parameters of the worst of many pairs, each with parameters of its own."""
+    wo, wi, sets = directions.scattered_pairs(case, rng)
+    there = scattered.pair_values(case.model, wo, wi, sets)
+    back = scattered.pair_values(case.model, wi, wo, sets)
+    relative = _relative(there, back)
+    return sets.parameters(int(np.argmax(relative)))
+
+
+def _relative(there: Any, back: Any) -> Any:
+    """|f - f'|/max(f, f'); 0 where one of them is not finite, which is positivity's business."""
+    usable = np.isfinite(there) & np.isfinite(back)
+    there, back = np.where(usable, there, 0.0), np.where(usable, back, 0.0)
+    high = np.maximum(np.abs(there), np.abs(back))
+    floor = NEGLIGIBLE * float(high.max(initial=0.0))
+    return np.abs(there - back) / np.maximum(high, floor if floor > 0.0 else 1.0)
 
 
 def _worst_of(case: Case, p: Any, rng: Any) -> Exact:
     wo, wi = directions.all_pairs(case, p, rng)
     there, back = pointwise(case.model, p).f(wo, wi), pointwise(case.model, p).f(wi, wo)
-    usable = np.isfinite(there) & np.isfinite(back)  # what is not finite is positivity's business
-    there, back = np.where(usable, there, 0.0), np.where(usable, back, 0.0)
-    high = np.maximum(np.abs(there), np.abs(back))
-    floor = NEGLIGIBLE * float(high.max(initial=0.0))
-    relative = np.abs(there - back) / np.maximum(high, floor if floor > 0.0 else 1.0)
+    relative = _relative(there, back)
     k = int(np.argmax(relative))
     where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = _hint(there[k], back[k], wo[k], wi[k])

@@ -1,52 +1,54 @@
 """The worst place of a quantity: over angles, azimuths where they matter, and free parameters.
 
-A coarse scan of all of them together; then every one is scanned finely along its own line from the
-best places found, so that a bump of 1 % of a range is met once the others are where it shows; then
-steps that climb. All values use the same random numbers: differences between them are not noise.
-It cannot see: a bump narrow in two of them at once.
+Thousands of places spread over all of them together, each with few nodes; the best again with more
+nodes; every coordinate scanned finely along its own line through the best, so that a bump of 1 % of
+a range is met once the others are where it shows; then steps that climb. All places use the same
+nodes: differences between them are not noise.
+It cannot see: a bump that holds less than about one in ten thousand of the places.
 """
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from montecarlo_brdf.checks import interiors
-from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.checks.case import Case
+from montecarlo_brdf.checks.directions import MIRROR, vectors
 from montecarlo_brdf.checks.lobe_coordinates import grid
-from montecarlo_brdf.checks.truth import coordinates
-from montecarlo_brdf.integration import integrands
-from montecarlo_brdf.integration.estimators import (
-    Plan,
-    Subject,
-    evaluate,
-    integrand_name,
-    samplers_of,
-)
-from montecarlo_brdf.sampling.points import sobol
+from montecarlo_brdf.integration import scattered
+from montecarlo_brdf.integration.estimators import samplers_of
+from montecarlo_brdf.sampling.spread import spread
+from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.vectors import Vec, from_degrees
 
 ANGLES = (0.0, 30.0, 50.0, 65.0, 76.0, 84.0, 88.0, 89.9)
 LAST = 89.9
-INTERIOR = 20  # parameter sets of the scan
+SHARP = 2.0  # times as much as elsewhere makes a lobe
+#: places of the scan by the number of coordinates, and sets of parameters that are prepared
+PLACES = (512, 4096, 16384)
+PREPARED = 48
+#: nodes of a mean: draws of the model's own sampler, or (slopes, azimuths) where it has none
+NODES = {"scan": (64, (16, 8)), "climb": (1024, (32, 24)), "polish": (8192, (96, 64))}
+KEPT = 64  # places of the scan that are looked at again
+APART = 0.15  # between two of them, in one of the coordinates
+CLIMBING = 4  # of them, places from which steps are made
 LINE = 128  # places along each line
 SWEEPS = 2
-SCAN = Plan(samples=1 << 10, replicates=4)
-CLIMB = Plan(samples=1 << 13, replicates=8)
-POLISH = Plan(samples=1 << 16, replicates=8)
-STEPS = {CLIMB: (0.15, 0.003), POLISH: (0.006, 0.0003)}  # first and last
-NODES = grid(48, 32)
+STEPS = 0.12, 1e-4, 48  # first, last, and how many at most
+BEYOND = 0.04  # of a range, so that its very ends are met
 
-At = tuple[float, ...]
-Value = Callable[[At, Plan], float]
+Array = Any
+#: values at places (n, coordinates), with the nodes of a stage
+Value = Callable[[Array, str], Array]
 
 
 class Spot(NamedTuple):
     """A place as numbers in [0, 1] (angle, azimuth if it matters, parameters), and its value."""
 
-    at: At
+    at: tuple[float, ...]
     value: float
 
 
@@ -60,16 +62,38 @@ class Space(NamedTuple):
         """1 if the azimuth matters, else 0."""
         return int(not self.case.model.isotropic)
 
-    def direction(self, at: At) -> tuple[float, float]:
+    @property
+    def size(self) -> int:
+        """The number of coordinates."""
+        return 1 + self.turning + len(self.case.free)
+
+    def direction(self, at: Any) -> tuple[float, float]:
         """Polar angle and azimuth in degrees."""
         return LAST * at[0], 360.0 * at[1] if self.turning else self.case.phi_o_deg
 
-    def parameters(self, at: At) -> Any:
+    def vector(self, at: Any) -> Vec:
+        """The direction itself."""
+        return from_degrees(*self.direction(at))
+
+    def vectors(self, at: Array) -> Array:
+        """The directions (n, 3) of many places."""
+        phi = 360.0 * at[:, 1] if self.turning else self.case.phi_o_deg
+        return vectors(np.radians(LAST * at[:, 0]), np.radians(phi))
+
+    def parameters(self, at: Any) -> Any:
         """The parameter set."""
         free = at[1 + self.turning :]
         return interiors.at(self.case, dict(zip(self.case.free, free, strict=True)))
 
-    def where(self, at: At, letter: str) -> dict[str, float]:
+    def rows(self, at: Array) -> scattered.Rows:
+        """The parameter sets of many places."""
+        return interiors.rows(self.case, at[:, 1 + self.turning :])
+
+    def own(self) -> tuple[float, ...]:
+        """The case's own parameters as coordinates."""
+        return tuple(interiors.position(self.case, self.case.one).values())
+
+    def where(self, at: Any, letter: str) -> dict[str, float]:
         """The place as findings give it."""
         theta, phi = self.direction(at)
         turned = {f"phi_{letter}_deg": round(phi, 3)} if phi else {}
@@ -78,88 +102,102 @@ class Space(NamedTuple):
 
 
 def albedo(space: Space, quantity: str) -> Value:
-    """A or R by the sampler that sees the lobe, or by a coarse quadrature where there is none."""
+    """A or R by the sampler that sees the lobe, or in slopes of half vectors where there is none;
+    infinite where it is not a number."""
     model = space.case.model
-    if samplers_of(model, quantity)[-1] != "own":
-        return lambda at, _: _quadrature(space, quantity, at)
-    name = integrand_name(model, quantity, "own")
-    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
-    functions = {k: v for k, v in bound.items() if v is not None}
 
-    def value(at: At, plan: Plan) -> float:
-        subject = Subject((model.name,), functions, [model.prepared(space.parameters(at))])
-        fixed = from_degrees(*space.direction(at))
-        integrand = [getattr(integrands, name)]
-        e = evaluate(subject, fixed, integrand, plan, ("search", quantity), common=True)[0][0]
-        return e.mean if math.isfinite(e.mean) else math.inf
+    def value(at: Array, stage: str) -> Array:
+        w = space.vectors(at)
+        sets = space.rows(at)
+        own = samplers_of(model, quantity)[-1] == "own"
+        side = np.ones(len(w)) if own else _side(space, w, sets)
+        places = np.concatenate([w, side[:, None]], axis=1)
+        found = scattered.mean_values(model, quantity, _nodes(space, quantity, stage), places, sets)
+        return np.where(np.isfinite(found), found, math.inf)
 
     return value
 
 
-def _quadrature(space: Space, quantity: str, at: At) -> float:
-    case, fixed = space.case, from_degrees(*space.direction(at))
-    p, w = space.parameters(at), np.array(fixed)
-    f = pointwise(case.model, p).f
-    x, b, weight = NODES
-    v, jacobian = coordinates(case.model, p, w).directions(x, b)
-    values = f(v, w) if quantity == "reverse" else f(w, v)
-    total = float(np.sum(weight * jacobian * v[:, 2] * values))
-    return total if math.isfinite(total) else math.inf
+def _side(space: Space, w: Array, sets: scattered.Rows) -> Array:
+    """Where f has a lobe for w: 1 at its mirror direction, -1 at w itself, 0 at neither."""
+
+    def f(other: Array) -> Array:
+        return scattered.pair_values(space.case.model, w, other, sets)
+
+    retro, mirror = f(w), f(w * MIRROR)
+    beside = np.maximum(*(f(np.tile(vectors(0.9, phi), (len(w), 1))) for phi in (1.0, 4.0)))
+    side = np.where(retro > SHARP * mirror, -1.0, 1.0)
+    return np.where(np.maximum(retro, mirror) > SHARP * beside, side, 0.0)
+
+
+def _nodes(space: Space, quantity: str, stage: str) -> Array:
+    draws, cells = NODES[stage]
+    if samplers_of(space.case.model, quantity)[-1] == "own":
+        u = spread(draws, 3, stream(space.case.seed, "search"))
+        return np.concatenate([u, np.full((draws, 1), 1.0 / draws)], axis=1)
+    x, b, weight = grid(*cells)
+    return np.stack([x, b, np.zeros(len(x)), weight], axis=1)
 
 
 def worst(space: Space, value: Value) -> Spot:
     """Where `value` is largest, as far as scan, lines and steps can tell."""
-    scanned = sorted(_scan(space, value), key=lambda s: s.value, reverse=True)
-    starts = [scanned[0], _lines(value, scanned[0])]
-    best = max((_climb(value, s, CLIMB) for s in starts), key=lambda s: s.value)
-    return _climb(value, best, POLISH)
+    scanned = _scan(space)
+    kept = _best(scanned, value(scanned, "scan"), KEPT)
+    starts = _best(kept, value(kept, "climb"), CLIMBING)
+    starts = np.concatenate([starts, [_lines(space, value, starts[0])]])
+    at = _climb(value, starts)
+    return _spot(at, float(value(at[None, :], "polish")[0]))
 
 
-def _scan(space: Space, value: Value) -> Iterator[Spot]:
-    """The case's own parameters and some of the interior, at every angle."""
-    case = space.case
-    own = tuple(interiors.position(case, case.one).values())
-    for k in range(1 + (INTERIOR if case.free or space.turning else 0)):
-        u = sobol(case.seed + 0xE9, k)
-        turn = (u[4],) if space.turning else ()
-        inside = own if k == 0 else tuple(u[i % 4] for i in range(len(own)))
-        for theta in ANGLES:
-            at = (theta / LAST, *turn, *inside)
-            yield Spot(at, value(at, SCAN))
+def _spot(at: Array, value: float) -> Spot:
+    return Spot(tuple(map(float, at)), value)
 
 
-def _lines(value: Value, spot: Spot) -> Spot:
+def _best(places: Array, values: Array, count: int) -> Array:
+    """The highest places, each at some distance from those before: a plateau is one of them."""
+    chosen = []
+    values = values.copy()
+    for _ in range(min(count, len(places))):
+        chosen.append(int(np.argmax(values)))
+        values[np.abs(places - places[chosen[-1]]).max(axis=1) < APART] = -math.inf
+    return places[chosen]
+
+
+def _scan(space: Space) -> Array:
+    """The case's own parameters at some angles, then places everywhere."""
+    own = [(t / LAST, *(0.0,) * space.turning, *space.own()) for t in ANGLES]
+    n = PLACES[min(space.size, len(PLACES)) - 1]
+    at = spread(n, space.size, stream(space.case.seed, "places"))
+    at = np.clip((1.0 + 2.0 * BEYOND) * at - BEYOND, 0.0, 1.0)
+    if space.case.model.prepare:
+        first = 1 + space.turning
+        at[:, first:] = at[np.arange(n) % PREPARED, first:]
+    return np.concatenate([np.array(own), at])
+
+
+def _lines(space: Space, value: Value, at: Array) -> Array:
     """Every coordinate in turn scanned from end to end, the others staying at the best so far."""
-    for axis in [*range(len(spot.at))] * SWEEPS:
-        places = [_moved(spot.at, axis, k / (LINE - 1)) for k in range(LINE)]
-        best = max((Spot(at, value(at, SCAN)) for at in places), key=lambda s: s.value)
-        spot = max(spot, best, key=lambda s: s.value)
-    return spot
+    steps = np.linspace(0.0, 1.0, LINE)
+    for axis in [*range(space.size)] * SWEEPS:
+        places = np.tile(at, (LINE + 1, 1))
+        places[1:, axis] = steps
+        at = places[int(np.argmax(value(places, "climb")))]
+    return at
 
 
-def _climb(value: Value, spot: Spot, plan: Plan) -> Spot:
-    """Steps to the best neighbour, halved where there is none better."""
-    spot = Spot(spot.at, value(spot.at, plan))
-    step, last = STEPS[plan]
-    while step > last:
-        around = [Spot(at, value(at, plan)) for at in _neighbours(spot.at, step)]
-        best = max(around, key=lambda s: s.value)
-        spot, step = (best, step) if best.value > spot.value else (spot, 0.5 * step)
-    return spot
-
-
-def _neighbours(at: At, step: float) -> Iterator[At]:
-    """Steps along every coordinate; a third as far along the angle, where lobes change fast."""
-    for sign in (-1.0, 1.0):
-        for axis in range(len(at)):
-            size = step / 3.0 if axis == 0 else step
-            yield _moved(at, axis, min(max(at[axis] + sign * size, 0.0), 1.0))
-
-
-def _moved(at: At, axis: int, to: float) -> At:
-    return (*at[:axis], to, *at[axis + 1 :])
-
-
-def direction(space: Space, at: At) -> Vec:
-    """The place's direction."""
-    return from_degrees(*space.direction(at))
+def _climb(value: Value, starts: Array) -> Array:
+    """Steps from every start to its best neighbour, halved where none of them gets higher."""
+    step, last, most = STEPS
+    size = starts.shape[1]
+    offsets = np.concatenate([np.zeros((1, size)), np.eye(size), -np.eye(size)])
+    offsets[:, 0] /= 3.0  # along the angle lobes change fast
+    for _ in range(most):
+        around = np.clip(starts[:, None, :] + step * offsets[None, :, :], 0.0, 1.0)
+        values = value(around.reshape(-1, size), "climb").reshape(len(starts), -1)
+        chosen = np.argmax(values, axis=1)
+        starts = around[np.arange(len(starts)), chosen]
+        highest = values.max(axis=1)
+        step *= 1.0 if chosen.any() else 0.5
+        if step < last:
+            break
+    return starts[int(np.argmax(highest))]

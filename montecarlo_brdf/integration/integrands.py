@@ -144,19 +144,19 @@ def rejected_own(u: Any, fixed: Any, p: Any) -> float:
     return 0.0
 
 
-SKY: Any = None
+SKY: Any = None  # SKY(w, which): one kernel serves several skies, told apart by fixed[3]
 
 
 def radiance_uniform(u: Any, fixed: Any, p: Any) -> float:
     """f L cos / pdf with wi uniform: E = reflected radiance under the light SKY."""
     wi = random_hemisphere(u[0], u[1])
-    return F((fixed[0], fixed[1], fixed[2]), wi, p) * wi[2] * SKY(wi) * TWO_PI
+    return F((fixed[0], fixed[1], fixed[2]), wi, p) * wi[2] * SKY(wi, fixed[3]) * TWO_PI
 
 
 def radiance_cosine(u: Any, fixed: Any, p: Any) -> float:
     """f L cos / pdf with wi cosine-weighted."""
     wi = random_hemisphere_cosine(u[0], u[1])
-    return F((fixed[0], fixed[1], fixed[2]), wi, p) * SKY(wi) * PI
+    return F((fixed[0], fixed[1], fixed[2]), wi, p) * SKY(wi, fixed[3]) * PI
 
 
 def radiance_own(u: Any, fixed: Any, p: Any) -> float:
@@ -166,7 +166,7 @@ def radiance_own(u: Any, fixed: Any, p: Any) -> float:
     if wi[2] <= 0.0:
         return 0.0
     wi = (wi[0], wi[1], wi[2])
-    return F(wo, wi, p) * wi[2] * SKY(wi) / PDF(wo, wi, p)
+    return F(wo, wi, p) * wi[2] * SKY(wi, fixed[3]) / PDF(wo, wi, p)
 
 
 def radiance_weighted(u: Any, fixed: Any, p: Any) -> float:
@@ -174,7 +174,7 @@ def radiance_weighted(u: Any, fixed: Any, p: Any) -> float:
     wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
-    return wi[3] * SKY((wi[0], wi[1], wi[2]))
+    return wi[3] * SKY((wi[0], wi[1], wi[2]), fixed[3])
 
 
 #: integrands that use the coordinates 0, 1 and 4 of a point only

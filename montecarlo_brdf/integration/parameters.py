@@ -58,6 +58,15 @@ def pack(channels: Sequence[Any], first: int) -> tuple[Layout, list[float]]:
     return Layout(shape_of(channels[0]), tuple(map(tuple, places))), numbers
 
 
+def following(shape: Any, first: int) -> Layout:
+    """The layout of one parameter set of a shape whose numbers start at place `first`."""
+    return Layout(shape, (tuple(range(first, first + _count(shape))),))
+
+
+def _count(shape: Any) -> int:
+    return 1 if shape is None else sum(_count(s) for s in shape[1])
+
+
 def unpacker(layout: Layout) -> Any:
     """Intrinsic `unpack(reals)`: the K NamedTuples of a layout."""
     import numba
@@ -104,3 +113,17 @@ def _numba_type(shape: Any) -> Any:
     if uniform:
         return numba.types.NamedUniTuple(fields[0], len(fields), kind)
     return numba.types.NamedTuple(fields, kind)
+
+
+def row() -> Any:
+    """Intrinsic `row(reals, k)`: the numbers from place k on."""
+    from numba.extending import intrinsic
+
+    @intrinsic
+    def from_place(typing: Any, reals: Any, k: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            return builder.gep(args[0], [args[1]])
+
+        return reals(reals, k), generate
+
+    return from_place

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.integration import build, parameters
+from montecarlo_brdf.integration import build, paced, parameters
 from montecarlo_brdf.integration.native import NativeKernel
 from montecarlo_brdf.model import Model
 
@@ -18,7 +18,6 @@ PARAMETERS: Any = None
 FUNCTION: Any = None
 WRITE: Any = None
 
-MOST = 1 << 13  # directions of a call
 DRAWN = 4  # numbers per draw: x, y, z and the weight, NaN if the sampler returns none
 
 
@@ -112,8 +111,8 @@ class Pointwise:
         data = np.concatenate([self._numbers, np.concatenate([a, b], axis=1).ravel()])
         data = np.ascontiguousarray(data, dtype=np.float64)
         out = np.full((len(a), width), np.nan)
-        for k in range(0, len(a), MOST):  # Ctrl-C waits for a call to end
-            ints = np.array([min(MOST, len(a) - k), len(self._numbers) + 6 * k], dtype=np.int64)
+        for k, count in paced.pieces(kernel, len(a)):
+            ints = np.array([count, len(self._numbers) + 6 * k], dtype=np.int64)
             if kernel(ints.ctypes.data, data.ctypes.data, out[k:].ctypes.data) != 0:
                 raise ModelError(f"model {self.model.name} raised an exception while evaluated")
         return out

@@ -1,6 +1,7 @@
 """Reflects 0.1 % less than it declares.
 
 caught by: furnace
+cause: none
 """
 
 import math

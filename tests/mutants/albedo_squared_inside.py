@@ -1,6 +1,7 @@
 """The albedo is squared, as colours are decoded; at the default of 1 nothing shows.
 
 caught by: furnace
+cause: parameter convention
 """
 
 import math

@@ -1,6 +1,7 @@
 """Reflects too much only for viewers at azimuth 90 degrees.
 
 caught by: energy
+cause: azimuth
 """
 
 import math

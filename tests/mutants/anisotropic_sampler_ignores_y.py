@@ -1,6 +1,7 @@
 """The sampler is isotropic; at the defaults both widths are equal and nothing shows.
 
 caught by: pdf
+cause: azimuth
 """
 
 import math

@@ -1,6 +1,7 @@
 """Tangent and bitangent are swapped.
 
 caught by: equality
+cause: swapped directions
 """
 
 import math

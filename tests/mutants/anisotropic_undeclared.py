@@ -1,7 +1,7 @@
 """Anisotropic, but not declared so.
 
 caught by: isotropy
-named by: depends on the azimuth itself
+cause: azimuth
 """
 
 import math

@@ -1,7 +1,7 @@
 """The azimuth covers 98 % of the circle.
 
 caught by: pdf
-named by: 0.98 everywhere
+cause: azimuth
 """
 
 import math

@@ -1,6 +1,7 @@
 """alpha instead of its square in Beckmann's exponent.
 
 caught by: equality
+cause: distribution
 """
 
 import math

@@ -1,6 +1,7 @@
 """alpha instead of its square in the sampler.
 
 caught by: pdf
+cause: width
 """
 
 import math

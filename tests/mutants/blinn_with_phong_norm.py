@@ -1,7 +1,7 @@
 """Blinn-Phong with the normalisation copied from Phong: about four times too much.
 
 caught by: energy
-named by: a factor 4 too much
+cause: factor 4
 """
 
 import math

@@ -1,7 +1,7 @@
 """Burley's diffuse with the light's cosine in both factors.
 
 caught by: reciprocity
-named by: one direction alone
+cause: one direction
 """
 
 import math

@@ -1,7 +1,7 @@
 """The sampler is uniform, the pdf cosine-weighted.
 
 caught by: pdf
-named by: cos_i is included
+cause: cosine
 """
 
 import math

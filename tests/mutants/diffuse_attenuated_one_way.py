@@ -1,7 +1,7 @@
 """The diffuse part is attenuated by what the coat lets in, not by what it lets out.
 
 caught by: reciprocity
-named by: one direction alone
+cause: one direction
 """
 
 import math

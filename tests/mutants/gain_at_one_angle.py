@@ -1,6 +1,7 @@
 """Reflects too much only within about two degrees around 40.
 
 caught by: energy
+cause: angle
 """
 
 import math

@@ -1,7 +1,7 @@
 """Blending base colours and lobes gains energy only between the ends.
 
 caught by: energy
-named by: not at the defaults, but with
+cause: inside the ranges
 """
 
 import math

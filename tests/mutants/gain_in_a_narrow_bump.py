@@ -1,7 +1,7 @@
 """Energy gain of 1 % in 1 % of the range of a parameter.
 
 caught by: energy
-named by: not at the defaults, but with
+cause: inside the ranges
 """
 
 import math

@@ -1,7 +1,7 @@
 """alpha is squared as if it were the perceptual roughness.
 
 caught by: equality
-named by: alpha^2 where alpha is meant
+cause: parameter convention
 """
 
 import math

@@ -1,6 +1,7 @@
 """+ 1e-3 in the denominator of f, against a division by zero.
 
 caught by: equality
+cause: masking
 """
 
 import math

@@ -1,6 +1,7 @@
 """+ 1e-6 in the denominator of D.
 
 caught by: equality
+cause: distribution
 """
 
 import math

@@ -1,7 +1,7 @@
 """Cosines clamped at 0.3 in the masking only, against fireflies.
 
 caught by: energy
-named by: grows towards grazing
+cause: masking
 """
 
 import math

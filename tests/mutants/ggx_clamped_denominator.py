@@ -1,6 +1,7 @@
 """max(d, 1e-3) guards a division and removes the highlight.
 
 caught by: equality
+cause: distribution
 """
 
 import math

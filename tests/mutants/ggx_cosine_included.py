@@ -1,7 +1,7 @@
 """f cos is returned, as Mitsuba's convention says, where f is expected.
 
 caught by: reciprocity
-named by: a cosine belongs to one direction only
+cause: cosine
 """
 
 import math

@@ -1,6 +1,7 @@
 """Masking with k = (alpha + 1)^2/8 remapped for direct light.
 
 caught by: equality
+cause: masking
 """
 
 import math

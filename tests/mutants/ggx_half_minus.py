@@ -1,7 +1,7 @@
 """The half vector is computed as L - V: zero length at wi = wo.
 
 caught by: positivity
-named by: wi = wo
+cause: wi = wo
 """
 
 import math

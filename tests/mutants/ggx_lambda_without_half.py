@@ -1,6 +1,7 @@
 """Smith's Lambda without the factor 1/2.
 
 caught by: equality
+cause: masking
 """
 
 import math

@@ -1,7 +1,7 @@
 """Only the light's direction is shadowed.
 
 caught by: reciprocity
-named by: one direction alone
+cause: one direction
 """
 
 import math

@@ -1,7 +1,7 @@
 """Masking squared of wo instead of wo and wi.
 
 caught by: reciprocity
-named by: one direction alone
+cause: one direction
 """
 
 import math

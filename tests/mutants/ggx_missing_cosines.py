@@ -1,7 +1,7 @@
 """The denominator lacks the cosines.
 
 caught by: equality
-named by: cos_i cos_o is included
+cause: cosine
 """
 
 import math

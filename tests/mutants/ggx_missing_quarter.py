@@ -1,7 +1,7 @@
 """The 4 of the half-vector Jacobian is missing.
 
 caught by: energy
-named by: a factor 4 too much
+cause: factor 4
 """
 
 import math

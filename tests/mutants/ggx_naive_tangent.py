@@ -1,7 +1,7 @@
 """tan(theta_h) by sqrt(1 - cos^2): the root of a negative where cos rounds above 1.
 
 caught by: positivity
-named by: root of a negative
+cause: root or power of a negative
 """
 
 import math

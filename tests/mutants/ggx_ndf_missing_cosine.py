@@ -1,7 +1,7 @@
 """n.h is missing in the pdf.
 
 caught by: pdf
-named by: n.h
+cause: Jacobian
 """
 
 import math

@@ -1,7 +1,7 @@
 """The Jacobian is 1/4 instead of 1/(4 wo.h).
 
 caught by: pdf
-named by: wo.h
+cause: Jacobian
 """
 
 import math

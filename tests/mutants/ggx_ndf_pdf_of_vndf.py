@@ -1,6 +1,7 @@
 """The sampler draws normals, the pdf is that of visible normals.
 
 caught by: pdf
+cause: masking
 """
 
 import math

@@ -1,7 +1,7 @@
 """No masking and shadowing at all.
 
 caught by: energy
-named by: look at masking
+cause: masking
 """
 
 import math

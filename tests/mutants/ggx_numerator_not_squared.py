@@ -1,7 +1,7 @@
 """alpha instead of alpha^2 in the numerator of D.
 
 caught by: equality
-named by: look at the normalisation
+cause: normalisation
 """
 
 import math

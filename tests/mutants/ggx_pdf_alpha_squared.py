@@ -1,6 +1,7 @@
 """The pdf squares alpha once more.
 
 caught by: pdf
+cause: width
 """
 
 import math

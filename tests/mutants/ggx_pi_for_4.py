@@ -1,7 +1,7 @@
 """pi in the denominator, as Cook and Torrance printed it, where 4 belongs.
 
 caught by: energy
-named by: pi stands where 4 belongs
+cause: pi for 4
 """
 
 import math

@@ -1,7 +1,7 @@
 """The 1/4 is applied twice.
 
 caught by: equality
-named by: the 1/4 of the half-vector Jacobian is applied twice
+cause: factor 4
 """
 
 import math

@@ -1,6 +1,7 @@
 """The half vector is rounded to the 24 bits of float32.
 
 caught by: isotropy
+cause: none
 """
 
 import math

@@ -1,7 +1,7 @@
 """saturate() clips the BRDF at 1.
 
 caught by: equality
-named by: clipped
+cause: clipped
 """
 
 import math

@@ -1,6 +1,7 @@
 """D takes alpha, G the square of it.
 
 caught by: equality
+cause: masking
 """
 
 import math

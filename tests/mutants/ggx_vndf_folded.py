@@ -1,7 +1,7 @@
 """Directions below the horizon are folded up with abs().
 
 caught by: pdf
-named by: below the horizon
+cause: horizon
 """
 
 import math

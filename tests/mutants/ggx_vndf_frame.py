@@ -1,6 +1,7 @@
 """The tangent is fixed to x: right only for viewers in one azimuth.
 
 caught by: pdf
+cause: azimuth
 """
 
 import math

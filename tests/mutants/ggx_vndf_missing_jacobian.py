@@ -1,7 +1,7 @@
 """The pdf is that of normals: 1/(4 wo.h) is missing.
 
 caught by: pdf
-named by: wo.h
+cause: Jacobian
 """
 
 import math

@@ -1,6 +1,7 @@
 """The visible hemisphere's share is 1 + cos instead of (1 + cos)/2.
 
 caught by: sampling
+cause: none
 """
 
 import math

@@ -1,7 +1,7 @@
 """Half-Lambert shading divided by the cosine to make it a BRDF.
 
 caught by: reciprocity
-named by: one direction alone
+cause: one direction
 """
 
 import math

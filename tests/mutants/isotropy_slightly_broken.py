@@ -1,7 +1,7 @@
 """Depends on the azimuth by 1e-4, reciprocally.
 
 caught by: isotropy
-named by: depends on the azimuth itself
+cause: azimuth
 """
 
 import math

@@ -1,7 +1,7 @@
 """The cosine of the rendering equation is included in f.
 
 caught by: reciprocity
-named by: a cosine belongs to one direction only
+cause: cosine
 """
 
 import math

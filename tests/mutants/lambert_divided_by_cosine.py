@@ -1,7 +1,7 @@
 """f divided by the cosine, as codes do that store f cos.
 
 caught by: reciprocity
-named by: a cosine belongs to one direction only
+cause: cosine
 """
 
 import math

@@ -1,7 +1,7 @@
 """Lambert with 1/pi twice.
 
 caught by: equality
-named by: 1/pi is applied twice
+cause: factor 1/pi twice
 """
 
 import math

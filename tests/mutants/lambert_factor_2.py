@@ -1,7 +1,7 @@
 """A factor 2 too much: normalised over the hemisphere of 2 pi sr, albedo/2 forgotten.
 
 caught by: energy
-named by: a factor 2 too much
+cause: factor 2
 """
 
 import math

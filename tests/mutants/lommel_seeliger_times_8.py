@@ -1,6 +1,7 @@
 """Lommel-Seeliger with a weight 8 times too large.
 
 caught by: energy
+cause: normalisation
 """
 
 import math

@@ -1,6 +1,7 @@
 """Declared lossless, but 2 % are lost around one interior roughness.
 
 caught by: limits
+cause: inside the ranges
 """
 
 import math

@@ -1,6 +1,7 @@
 """Single-scattering GGX declared lossless: it loses light at high roughness.
 
 caught by: limits
+cause: inside the ranges
 """
 
 import math

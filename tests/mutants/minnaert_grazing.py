@@ -1,7 +1,7 @@
 """Minnaert's exponent below 1 without its normalisation: more than 1 at grazing angles.
 
 caught by: energy
-named by: grows towards grazing
+cause: grazing
 """
 
 import math

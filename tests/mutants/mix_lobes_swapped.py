@@ -1,6 +1,7 @@
 """The pdf's weights are swapped.
 
 caught by: sampling
+cause: lobe choice
 """
 
 import math

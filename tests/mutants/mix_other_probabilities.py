@@ -1,6 +1,7 @@
 """Lobes are chosen half and half, the pdf weighs them by kd and ks.
 
 caught by: sampling
+cause: lobe choice
 """
 
 import math

@@ -1,6 +1,7 @@
 """The pdf is that of the diffuse lobe alone.
 
 caught by: sampling
+cause: lobe choice
 """
 
 import math

@@ -1,6 +1,7 @@
 """The number that chose the lobe is used again without being stretched.
 
 caught by: sampling
+cause: lobe choice
 """
 
 import math

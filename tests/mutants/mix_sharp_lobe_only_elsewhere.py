@@ -1,6 +1,7 @@
 """Roughness is clamped in the sampler only, which shows at high exponents.
 
 caught by: sampling
+cause: width
 """
 
 import math

@@ -1,7 +1,7 @@
 """acos of a cosine that rounds beyond 1 where directions are collinear.
 
 caught by: positivity
-named by: wi = wo
+cause: wi = wo
 """
 
 import math

@@ -1,6 +1,7 @@
 """Fresnel scaled by its value at the normal: 0/0 where the index of refraction is 1.
 
 caught by: positivity
+cause: range end
 """
 
 import math

@@ -1,7 +1,7 @@
 """A root that is real only above a cosine of 1e-5.
 
 caught by: positivity
-named by: a grazing direction
+cause: grazing
 """
 
 import math

@@ -1,7 +1,7 @@
 """Azimuths are normalised: 0/0 at normal incidence.
 
 caught by: positivity
-named by: normal incidence
+cause: normal incidence
 """
 
 import math

@@ -1,7 +1,7 @@
 """The azimuth plane is normalised from wo x wi: 0/0 at wi = wo.
 
 caught by: positivity
-named by: wi = wo
+cause: wi = wo
 """
 
 import math

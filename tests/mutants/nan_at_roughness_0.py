@@ -1,6 +1,7 @@
 """0/0 at the end of the range: roughness exactly 0.
 
 caught by: positivity
+cause: range end
 """
 
 import math

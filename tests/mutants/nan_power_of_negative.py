@@ -1,7 +1,7 @@
 """pow() of a negative cosine with an exponent that is not whole.
 
 caught by: positivity
-named by: root of a negative
+cause: root or power of a negative
 """
 
 import math

@@ -1,7 +1,7 @@
 """Clearcoat visibility: 0/0 where both cosines are tiny.
 
 caught by: positivity
-named by: a grazing direction
+cause: grazing
 """
 
 import math

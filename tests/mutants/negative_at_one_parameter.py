@@ -1,6 +1,7 @@
 """A weight of 1 - 3 k is negative in part of the range.
 
 caught by: positivity
+cause: inside the ranges
 """
 
 import math

@@ -1,6 +1,7 @@
 """A fitted polynomial turns negative where both directions graze on opposite sides.
 
 caught by: positivity
+cause: grazing
 """
 
 import math

@@ -1,7 +1,7 @@
 """A special case for viewers near the normal, forgotten for the light.
 
 caught by: reciprocity
-named by: one direction alone
+cause: one direction
 """
 
 import math

@@ -1,7 +1,7 @@
 """Non-reciprocal by 0.1 %.
 
 caught by: reciprocity
-named by: one direction alone
+cause: none
 """
 
 import math

@@ -1,7 +1,7 @@
 """The larger and the smaller angle are swapped: the tangent grows without bound.
 
 caught by: energy
-named by: grows towards grazing
+cause: grazing
 """
 
 import math

@@ -1,7 +1,7 @@
 """sigma is given in radians and converted from degrees once more.
 
 caught by: equality
-named by: in degrees
+cause: parameter convention
 """
 
 import math

@@ -1,7 +1,7 @@
 """Oren-Nayar divided by pi once more.
 
 caught by: equality
-named by: 1/pi is applied twice
+cause: factor 1/pi twice
 """
 
 import math

@@ -1,7 +1,7 @@
 """Oren-Nayar without 1/pi.
 
 caught by: energy
-named by: the factor 1/pi is missing
+cause: factor 1/pi missing
 """
 
 import math

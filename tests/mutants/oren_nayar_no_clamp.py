@@ -1,6 +1,7 @@
 """The cosine of the azimuths is not clamped at 0.
 
 caught by: equality
+cause: azimuth
 """
 
 import math

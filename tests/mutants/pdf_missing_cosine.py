@@ -1,7 +1,7 @@
 """The cosine is missing in the pdf.
 
 caught by: pdf
-named by: cos_i is missing
+cause: cosine
 """
 
 import math

@@ -1,7 +1,7 @@
 """1/pi is missing in the pdf.
 
 caught by: pdf
-named by: the factor 1/pi is missing
+cause: factor 1/pi missing
 """
 
 import math

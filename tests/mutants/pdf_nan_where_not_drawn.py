@@ -1,6 +1,7 @@
 """The pdf is NaN for directions that are never drawn, but asked by light sampling.
 
 caught by: pdf
+cause: not finite
 """
 
 import math

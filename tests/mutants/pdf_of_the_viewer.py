@@ -1,6 +1,7 @@
 """wo and wi are swapped in the pdf.
 
 caught by: pdf
+cause: swapped directions
 """
 
 import math

@@ -1,7 +1,7 @@
 """The pdf is 1 % too large everywhere.
 
 caught by: pdf
-named by: 1.01 everywhere
+cause: normalisation
 """
 
 import math

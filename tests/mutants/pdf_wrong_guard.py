@@ -1,6 +1,7 @@
 """The guard of the pdf looks at the wrong variable.
 
 caught by: pdf
+cause: none
 """
 
 import math

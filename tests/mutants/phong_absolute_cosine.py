@@ -1,6 +1,7 @@
 """abs() instead of max(0, .): a second lobe appears opposite.
 
 caught by: equality
+cause: none
 """
 
 import math

@@ -1,6 +1,7 @@
 """The sampler's lobe is around wo, the pdf's around its mirror direction.
 
 caught by: pdf
+cause: mirror direction
 """
 
 import math

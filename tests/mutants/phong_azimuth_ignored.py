@@ -1,6 +1,7 @@
 """The lobe is turned by the polar angle only: right for viewers at azimuth 0.
 
 caught by: sampling
+cause: azimuth
 """
 
 import math

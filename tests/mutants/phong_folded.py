@@ -1,7 +1,7 @@
 """Directions below the horizon are folded up, the pdf does not say so.
 
 caught by: sampling
-named by: below the horizon
+cause: horizon
 """
 
 import math

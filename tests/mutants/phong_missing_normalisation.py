@@ -1,7 +1,7 @@
 """Phong as printed in 1975: no normalisation at all.
 
 caught by: equality
-named by: look at the normalisation
+cause: normalisation
 """
 
 import math

@@ -1,7 +1,7 @@
 """n + 1 normalises a pdf, n + 2 a BRDF.
 
 caught by: equality
-named by: look at the normalisation
+cause: normalisation
 """
 
 import math

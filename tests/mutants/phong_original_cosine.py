@@ -1,7 +1,7 @@
 """Phong's lobe divided by the cosine of the light.
 
 caught by: reciprocity
-named by: a cosine belongs to one direction only
+cause: cosine
 """
 
 import math

@@ -1,7 +1,7 @@
 """The pdf is normalised like the BRDF: n + 2 instead of n + 1.
 
 caught by: pdf
-named by: look at the normalisation
+cause: normalisation
 """
 
 import math

@@ -1,6 +1,7 @@
 """The sampler's exponent is n + 2, the pdf's n + 1.
 
 caught by: pdf
+cause: width
 """
 
 import math

@@ -1,6 +1,7 @@
 """Points outside the disk are rejected, the pdf knows nothing of it.
 
 caught by: pdf
+cause: horizon
 """
 
 import math

@@ -1,6 +1,7 @@
 """A narrow retro-reflective lobe on a diffuse base, with too much energy.
 
 caught by: energy
+cause: none
 """
 
 import math

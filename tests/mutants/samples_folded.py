@@ -1,6 +1,7 @@
 """Directions of the whole sphere are folded up with abs(), the pdf is the sphere's.
 
 caught by: pdf
+cause: horizon
 """
 
 import math

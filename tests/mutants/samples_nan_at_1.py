@@ -1,7 +1,7 @@
 """The logarithm of 1 - u is infinite at the end of the unit interval that u = 0 reaches.
 
 caught by: pdf
-named by: not finite
+cause: not finite
 """
 
 import math

@@ -1,7 +1,7 @@
 """n + a direction on the sphere, not normalised.
 
 caught by: pdf
-named by: not of unit length
+cause: not of unit length
 """
 
 import math

@@ -1,7 +1,7 @@
 """A factor 2 in x and y: not of unit length.
 
 caught by: pdf
-named by: not of unit length
+cause: not of unit length
 """
 
 import math

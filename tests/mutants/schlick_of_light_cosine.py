@@ -1,7 +1,7 @@
 """Schlick's Fresnel with the light's cosine instead of h.v.
 
 caught by: reciprocity
-named by: one direction alone
+cause: one direction
 """
 
 import math

@@ -7,6 +7,7 @@ All checks of all of them: scripts/detection_matrix.py, docs/detection_matrix.md
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -42,6 +43,14 @@ def test_honest_model_never_fails(path: Path) -> None:
 def test_corpus_is_large() -> None:
     assert len(MUTANTS) >= 55
     assert len(HONEST) >= 12
+
+
+def test_every_mutant_says_what_was_done_to_it() -> None:
+    """By a cause that scripts/detection_matrix.py looks for in the hints, or "none"."""
+    known = {"none", *tomllib.loads((TESTS / "mutants" / "causes.toml").read_text("utf-8"))}
+    said = re.compile(r"^cause: (.+)$", re.MULTILINE)
+    causes = {p.stem: said.findall(p.read_text(encoding="utf-8")) for p in MUTANTS}
+    assert {name for name, found in causes.items() if not known.issuperset(found or [""])} == set()
 
 
 def test_every_check_has_a_mutant() -> None:

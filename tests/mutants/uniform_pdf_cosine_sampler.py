@@ -1,7 +1,7 @@
 """The pdf is called uniform, the sampler is cosine-weighted.
 
 caught by: pdf
-named by: cos_i is missing
+cause: cosine
 """
 
 import math

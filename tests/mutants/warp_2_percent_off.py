@@ -1,6 +1,7 @@
 """The exponent of the warp is 2 % off.
 
 caught by: pdf
+cause: width
 """
 
 import math

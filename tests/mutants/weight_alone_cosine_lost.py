@@ -1,6 +1,7 @@
 """Uniform sampling with the weight of cosine sampling; there is no pdf to compare with.
 
 caught by: furnace
+cause: cosine
 """
 
 import math

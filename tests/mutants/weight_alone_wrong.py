@@ -1,6 +1,7 @@
 """A weight without a pdf, with the pi of cosine sampling forgotten.
 
 caught by: furnace
+cause: factor 1/pi missing
 """
 
 import math

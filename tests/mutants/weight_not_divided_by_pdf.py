@@ -1,7 +1,7 @@
 """The returned weight is f cos, not divided by the pdf.
 
 caught by: pdf
-named by: cos_i is included
+cause: not divided by the pdf
 """
 
 import math

@@ -1,7 +1,7 @@
 """Diffuse and specular weights add up to 1.2.
 
 caught by: energy
-named by: weights that add up
+cause: weights of lobes
 """
 
 import math

@@ -1,7 +1,4 @@
-"""u = 0 gives a direction whose pdf is 0: 0/0 in the estimator.
-
-caught by: pdf
-"""
+"""Textbook: u = 0 gives a direction whose pdf is 0, and so is f: no light, probability 0."""
 
 import math
 from typing import NamedTuple

@@ -1,0 +1,50 @@
+"""An estimator for models without a sampler, whose lobes uniform and cosine sampling hardly hit.
+
+Points spread over the slopes of half vectors, with wo or with its mirror image, see a lobe of any
+width from 1e-3 on at the mirror direction or at wo itself. It cannot see: a sharp lobe elsewhere.
+"""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.checks import fitness
+from montecarlo_brdf.checks.case import pointwise
+from montecarlo_brdf.checks.claim import Measurement
+from montecarlo_brdf.integration import scattered
+from montecarlo_brdf.integration.estimators import Plan, Subject, evaluate
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.vectors import Vec, mirrored
+
+NAME = "slopes"
+SAMPLES = 1 << 18
+
+
+def albedo(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
+    """A(wo)."""
+    side = side_of(model, one, wo)
+    return _measured(model, one, (*wo, side), {}, scattered.albedo_slopes, seed)
+
+
+def radiance(model: Model, one: Any, wo: Vec, sky: Any, which: float, seed: int) -> Measurement:
+    """Reflected radiance under sky(w, which)."""
+    place = (*wo, side_of(model, one, wo) * (1.0 + which))
+    return _measured(model, one, place, {"SKY": sky}, scattered.radiance_slopes, seed)
+
+
+def side_of(model: Model, one: Any, wo: Vec) -> float:
+    """-1 where f is larger towards wo itself than towards its mirror direction, else 1."""
+    both = pointwise(model, one).f(np.array(wo), np.array([wo, mirrored(wo)]))
+    return -1.0 if both[0] > 2.0 * both[1] else 1.0
+
+
+def _measured(
+    model: Model, one: Any, place: Any, more: Mapping[str, Any], integrand: Any, seed: int
+) -> Measurement:
+    functions = {"F": model.f, **more}
+    subject = Subject((model.name, *map(repr, one)), functions, [model.prepared(one)])
+    e = evaluate(subject, place, [integrand], Plan(samples=SAMPLES, seed=seed), (NAME,))[0][0]
+    few = e.effective_samples() < fitness.FEWEST
+    return Measurement(NAME, e, "a lobe where half vectors do not show it" if few else None)

@@ -1,0 +1,196 @@
+"""A model at many places at once, each with a direction and parameters of its own: for searches.
+
+A mean estimated place by place spends its time between the calls. Here one call takes thousands of
+places, and the same nodes u serve all of them: differences between places are not noise.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.integration import build, estimators, integrands, paced, parameters
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+
+PARAMETERS: Any = None
+INTEGRAND: Any = None
+FUNCTION: Any = None
+ROW: Any = None
+F: Any = None
+SKY: Any = None
+
+NODE = 4  # numbers of a node: u[0], u[1], u[4] and its weight
+PLACE = 4  # numbers of a place before its parameters: a direction and what the integrand needs
+PAIR = 6  # numbers of a pair before its parameters: wo and wi
+FINEST = 1e-3  # slope of the half vector from which on `albedo_slopes` resolves a lobe
+
+
+def means(ints: Any, reals: Any, out: Any) -> None:
+    """out[j] = sum_i w_i INTEGRAND(u_i, place_j, p_j); ints = (places, nodes, first, stride)."""
+    for j in range(ints[0]):
+        place = ROW(reals, ints[2] + j * ints[3])
+        p = PARAMETERS(place)[0]
+        query = (place[0], place[1], place[2], place[3])
+        total = 0.0
+        for i in range(ints[1]):
+            at = 4 * i
+            u = (reals[at], reals[at + 1], 0.0, 0.0, reals[at + 2])
+            total += reals[at + 3] * INTEGRAND(u, query, p)
+        out[j] = total
+
+
+def pairs(ints: Any, reals: Any, out: Any) -> None:
+    """out[j] = FUNCTION(wo_j, wi_j, p_j); ints = (pairs, 0, first, stride)."""
+    for j in range(ints[0]):
+        at = ROW(reals, ints[2] + j * ints[3])
+        p = PARAMETERS(at)[0]
+        out[j] = FUNCTION((at[0], at[1], at[2]), (at[3], at[4], at[5]), p)
+
+
+def albedo_slopes(u: Any, fixed: Any, p: Any) -> float:
+    """f cos dwi for models without a sampler: cosine-weighted where fixed[3] is 0, else by slopes
+    of the half vector with wo (fixed[3] = 1: a lobe at the mirror direction) or with its mirror
+    image (-1: a lobe at wo itself)."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    if fixed[3] == 0.0:
+        return F(wo, random_hemisphere_cosine(u[0], u[1]), p) * math.pi
+    wi, area = slopes((fixed[3] * wo[0], fixed[3] * wo[1], wo[2]), u[0], u[1])
+    return F(wo, wi, p) * wi[2] * area
+
+
+def reverse_slopes(u: Any, fixed: Any, p: Any) -> float:
+    """The same for R(wi)."""
+    wi = (fixed[0], fixed[1], fixed[2])
+    if fixed[3] == 0.0:
+        return F(random_hemisphere_cosine(u[0], u[1]), wi, p) * math.pi
+    wo, area = slopes((fixed[3] * wi[0], fixed[3] * wi[1], wi[2]), u[0], u[1])
+    return F(wo, wi, p) * wo[2] * area
+
+
+def radiance_slopes(u: Any, fixed: Any, p: Any) -> float:
+    """f L cos dwi in the same way; |fixed[3]| - 1 says which sky."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    side = 1.0 if fixed[3] > 0.0 else -1.0
+    wi, area = slopes((side * wo[0], side * wo[1], wo[2]), u[0], u[1])
+    return F(wo, wi, p) * wi[2] * SKY(wi, abs(fixed[3]) - 1.0) * area
+
+
+def slopes(v: Any, x: float, b: float) -> Any:
+    """(w, dw/dx db): half vectors whose slopes are even in their logarithm up to the horizon, as
+    checks.lobe_coordinates has them, from FINEST on."""
+    side = math.sqrt(v[0] * v[0] + v[1] * v[1])
+    ex, ey = (v[0] / side, v[1] / side) if side > 0.0 else (1.0, 0.0)
+    c, s = math.cos(2.0 * math.pi * b), math.sin(2.0 * math.pi * b)
+    k = side / v[2] * c
+    root = abs(k) + math.sqrt(k * k + 1.0)
+    last = root if k >= 0.0 else 1.0 / root
+    span = math.log1p((last / FINEST) * (last / FINEST))
+    grown = math.expm1(x * span)
+    t2 = FINEST * FINEST * grown
+    t = math.sqrt(t2)
+    z = 1.0 / math.sqrt(1.0 + t2)
+    dot = z * (v[2] + side * c * t)
+    along, across = 2.0 * dot * z * t * c - side, 2.0 * dot * z * t * s
+    area = 4.0 * math.pi * dot * z * z * z * FINEST * FINEST * (grown + 1.0) * span
+    w = (ex * along - ey * across, ey * along + ex * across, max(2.0 * dot * z - v[2], 1e-12))
+    return w, area
+
+
+class Listing(NamedTuple):
+    """All that a kernel over places is made of."""
+
+    template: Any  # means or pairs
+    function: Any  # an integrand, or f
+    functions: Mapping[str, Any]  # what F, SAMPLE, PDF stand for in it
+    layout: parameters.Layout
+
+    def key(self) -> str:
+        """Hash of everything the machine code depends on."""
+        content = build.fingerprint(self.layout)
+        content.add(self.template)
+        content.add(self.function, self.functions)
+        return content.hexdigest()
+
+    def parts(self) -> Any:
+        """Template, functions and layout."""
+        return self.template, self.function, frozenset(self.functions.items()), self.layout
+
+    def assemble(self) -> Any:
+        """The template with everything bound."""
+        special = build.specialiser()
+        name = "INTEGRAND" if self.template is means else "FUNCTION"
+        function = special.bind(self.function, self.functions) if self.functions else self.function
+        unpack = parameters.unpacker(self.layout)
+        return special.clone(
+            self.template, {name: function, "PARAMETERS": unpack, "ROW": parameters.row()}
+        )
+
+
+class Rows(NamedTuple):
+    """Parameter sets as rows of numbers, one per place, as a kernel takes them."""
+
+    base: Any
+    values: Any  # (n, parameters)
+    shape: Any
+    numbers: Any  # (n, numbers of a set as the model gets it)
+
+    def parameters(self, k: int) -> Any:
+        """The parameter set of row k."""
+        return type(self.base)(*map(float, self.values[k]))
+
+
+def rows(model: Model, columns: Mapping[str, Any], base: Any, n: int) -> Rows:
+    """n parameter sets: `base` with the columns of n numbers in place of some fields.
+
+    A model that prepares its parameters does so once per different set.
+    """
+    import numpy as np
+
+    table = np.tile(np.array(tuple(base), dtype=float), (n, 1)) if base else np.zeros((n, 0))
+    for name, values in columns.items():
+        table[:, base._fields.index(name)] = values
+    if model.prepare is None:
+        return Rows(base, table, parameters.shape_of(base), table)
+    sets, which = np.unique(table, axis=0, return_inverse=True)
+    ready = [model.prepared(type(base)(*map(float, s))) for s in sets]
+    numbers = np.array([list(parameters.numbers_of(r)) for r in ready])
+    return Rows(base, table, parameters.shape_of(ready[0]), numbers[which.reshape(-1)])
+
+
+def mean_values(model: Model, quantity: str, nodes: Any, places: Any, sets: Rows) -> Any:
+    """A ("albedo") or R ("reverse") at (n, 4) places: by the model's own sampler with nodes in
+    [0, 1)^3, or in slopes of the half vector where it has none."""
+    name = estimators.integrand_name(model, quantity, "own")
+    own = estimators.samplers_of(model, quantity)[-1] == "own"
+    slopes_of = albedo_slopes if quantity == "albedo" else reverse_slopes
+    function = getattr(integrands, name) if own else slopes_of
+    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
+    functions = {k: v for k, v in bound.items() if v is not None}
+    return _run(model, (means, function, functions), nodes, places, sets)
+
+
+def pair_values(model: Model, wo: Any, wi: Any, sets: Rows) -> Any:
+    """f(wo, wi) for (n, 3) directions, each pair with parameters of its own."""
+    import numpy as np
+
+    places = np.concatenate([wo, wi], axis=1)
+    return _run(model, (pairs, model.f, {}), np.zeros((0, NODE)), places, sets)
+
+
+def _run(model: Model, made_of: tuple[Any, Any, Any], nodes: Any, places: Any, sets: Rows) -> Any:
+    import numpy as np
+
+    first = places.shape[1]
+    layout = parameters.following(sets.shape, first)
+    kernel = estimators.compiled(model.name, Listing(*made_of, layout))
+    table = np.concatenate([places, sets.numbers], axis=1)
+    stride = table.shape[1]
+    data = np.ascontiguousarray(np.concatenate([nodes.ravel(), table.ravel()]), dtype=np.float64)
+    out = np.full(len(places), np.nan)
+    for start, count in paced.pieces(kernel, len(places)):
+        ints = np.array([count, len(nodes), nodes.size + start * stride, stride], dtype=np.int64)
+        if kernel(ints.ctypes.data, data.ctypes.data, out[start:].ctypes.data) != 0:
+            raise ModelError(f"model {model.name} raised an exception while evaluated")
+    return out
