@@ -28,6 +28,7 @@ SPECIAL = 2_000
 SCATTERED = 100_000  # pairs with parameters of their own
 PREPARED = 32  # different ones where the model prepares them
 MIRROR = np.array([-1.0, -1.0, 1.0])
+NEIGHBOURS = 8
 HIGHEST_COSINE = 1e-6  # ordinary random directions keep clear of the horizon by this
 
 
@@ -102,6 +103,16 @@ def scattered_pairs(case: Case, rng: Any, n: int = SCATTERED) -> tuple[Array, Ar
     if case.model.prepare:
         t = t[np.arange(n) % PREPARED]
     return wo, wi, interiors.rows(case, t)
+
+
+def rounding(f: Any, wo: Array, wi: Array, rng: Any) -> Array:
+    """How much f changes when the directions move by an ulp or two: where that is as much as what
+    was found, nothing was found."""
+    before, noise = f(wo, wi), np.zeros(len(wo))
+    for _ in range(NEIGHBOURS):
+        moved = (w * (1.0 + 2.0**-52 * rng.integers(-2, 3, w.shape)) for w in (wo, wi))
+        noise = np.fmax(noise, np.abs(f(*moved) - before))
+    return noise
 
 
 def place(wo: Array, wi: Array) -> dict[str, float]:

@@ -1,7 +1,8 @@
-"""An estimator for models without a sampler, whose lobes uniform and cosine sampling hardly hit.
+"""An estimator for what uniform and cosine sampling hardly hit and quadratures cannot resolve.
 
-Points spread over the slopes of half vectors, with wo or with its mirror image, see a lobe of any
-width from 1e-3 on at the mirror direction or at wo itself. It cannot see: a sharp lobe elsewhere.
+For models without a sampler, and for densities with steps. Points spread over the slopes of half
+vectors, with wo or with its mirror image, see a lobe of any width from 1e-3 on at the mirror
+direction or at wo itself. It cannot see: a sharp lobe elsewhere.
 """
 from __future__ import annotations
 
@@ -19,19 +20,27 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec, mirrored
 
 NAME = "slopes"
-SAMPLES = 1 << 18
+SAMPLES = 1 << 20
 
 
 def albedo(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
     """A(wo)."""
     side = side_of(model, one, wo)
-    return _measured(model, one, (*wo, side), {}, scattered.albedo_slopes, seed)
+    bound = {"F": model.f}
+    return _measured(model, one, (*wo, side), bound, scattered.albedo_slopes, seed)
 
 
 def radiance(model: Model, one: Any, wo: Vec, sky: Any, which: float, seed: int) -> Measurement:
     """Reflected radiance under sky(w, which)."""
     place = (*wo, side_of(model, one, wo) * (1.0 + which))
-    return _measured(model, one, place, {"SKY": sky}, scattered.radiance_slopes, seed)
+    bound = {"F": model.f, "SKY": sky}
+    return _measured(model, one, place, bound, scattered.radiance_slopes, seed)
+
+
+def mass(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
+    """int pdf dwi."""
+    bound = {"PDF": model.pdf}
+    return _measured(model, one, (*wo, 1.0), bound, scattered.density_slopes, seed)
 
 
 def side_of(model: Model, one: Any, wo: Vec) -> float:
@@ -41,9 +50,8 @@ def side_of(model: Model, one: Any, wo: Vec) -> float:
 
 
 def _measured(
-    model: Model, one: Any, place: Any, more: Mapping[str, Any], integrand: Any, seed: int
+    model: Model, one: Any, place: Any, functions: Mapping[str, Any], integrand: Any, seed: int
 ) -> Measurement:
-    functions = {"F": model.f, **more}
     subject = Subject((model.name, *map(repr, one)), functions, [model.prepared(one)])
     e = evaluate(subject, place, [integrand], Plan(samples=SAMPLES, seed=seed), (NAME,))[0][0]
     few = e.effective_samples() < fitness.FEWEST

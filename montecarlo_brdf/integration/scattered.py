@@ -19,6 +19,7 @@ INTEGRAND: Any = None
 FUNCTION: Any = None
 ROW: Any = None
 F: Any = None
+PDF: Any = None
 SKY: Any = None
 
 NODE = 4  # numbers of a node: u[0], u[1], u[4] and its weight
@@ -75,6 +76,13 @@ def radiance_slopes(u: Any, fixed: Any, p: Any) -> float:
     side = 1.0 if fixed[3] > 0.0 else -1.0
     wi, area = slopes((side * wo[0], side * wo[1], wo[2]), u[0], u[1])
     return F(wo, wi, p) * wi[2] * SKY(wi, abs(fixed[3]) - 1.0) * area
+
+
+def density_slopes(u: Any, fixed: Any, p: Any) -> float:
+    """pdf dwi in the same way."""
+    wo = (fixed[0], fixed[1], fixed[2])
+    wi, area = slopes((fixed[3] * wo[0], fixed[3] * wo[1], wo[2]), u[0], u[1])
+    return PDF(wo, wi, p) * area
 
 
 def slopes(v: Any, x: float, b: float) -> Any:
