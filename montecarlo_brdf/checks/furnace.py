@@ -81,13 +81,11 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
 def _fallback(
     case: Case, one: Any, theta: float, expected: Reference | None
 ) -> Callable[[], Measurement] | None:
-    """What is asked where samples leave "A equals its reference" open: a quadrature of f, which
-    says nothing about itself; then draws that follow the lobe where the model has no sampler."""
+    """What is asked where samples leave "A equals its reference" open: a quadrature of f; where
+    that is the reference, which says nothing about itself, draws that follow the lobe."""
     model, wo = case.model, case.wo(theta)
     if expected is not None and not expected.kind.startswith("quadrature"):
         return functools.partial(truth.deterministic, model, one, wo)
-    if samplers_of(model)[-1] == "own":
-        return None
     from montecarlo_brdf.checks import in_slopes
 
     return functools.partial(in_slopes.albedo, model, one, wo, case.seed)

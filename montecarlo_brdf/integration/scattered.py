@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import build, estimators, integrands, paced, parameters
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.sampling.warps import random_hemisphere, random_hemisphere_cosine
 
 PARAMETERS: Any = None
 INTEGRAND: Any = None
@@ -83,6 +83,12 @@ def density_slopes(u: Any, fixed: Any, p: Any) -> float:
     wo = (fixed[0], fixed[1], fixed[2])
     wi, area = slopes((fixed[3] * wo[0], fixed[3] * wo[1], wo[2]), u[0], u[1])
     return PDF(wo, wi, p) * area
+
+
+def density_uniform(u: Any, fixed: Any, p: Any) -> float:
+    """pdf dwi by uniform directions."""
+    wi = random_hemisphere(u[0], u[1])
+    return PDF((fixed[0], fixed[1], fixed[2]), wi, p) * 2.0 * math.pi
 
 
 def slopes(v: Any, x: float, b: float) -> Any:

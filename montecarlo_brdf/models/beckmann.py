@@ -35,6 +35,7 @@ class Params(NamedTuple):
 
 domain = {"alpha": (1e-4, 1.0), "f0": (0.0, 1.0)}
 verified = [Params(), Params(alpha=0.05), Params(alpha=1.0), Params(alpha=0.001, f0=0.04)]
+lossless = [Params(alpha=1e-4)]  # a mirror
 lobe = ("half vector", lambda p: p.alpha)
 
 

@@ -28,6 +28,7 @@ class Params(NamedTuple):
 
 domain = {"albedo": (0.0, 1.0), "roughness": (0.0, 1.0)}
 verified = [Params(), Params(albedo=1.0, roughness=1.0), Params(roughness=0.0)]
+limits = [({"roughness": 0.0}, "lambert")]
 lossless = [Params(albedo=1.0, roughness=r) for r in (0.0, 0.5, 1.0)]
 kinks = ("mu_i=mu_o", "cos_phi=0")
 

@@ -27,6 +27,7 @@ class Params(NamedTuple):
 
 domain = {"albedo": (0.0, 1.0), "roughness": (0.0, 1.0)}
 verified = [Params(), Params(albedo=1.0, roughness=1.0), Params(roughness=0.0)]
+limits = [({"roughness": 0.0}, "lambert")]
 scales_with = "albedo"
 kinks = ("mu_i=mu_o", "cos_phi=0")
 

@@ -26,6 +26,8 @@ class Params(NamedTuple):
 
 domain = {"alpha_x": (1e-4, 1.0), "alpha_y": (1e-4, 1.0), "f0": (0.0, 1.0)}
 verified = [Params(), Params(alpha_x=0.05, alpha_y=0.5), Params(alpha_x=1.0, alpha_y=0.02, f0=0.04)]
+limits = [({"alpha_x": 0.3, "alpha_y": 0.3}, "ggx")]
+lossless = [Params(alpha_x=1e-4, alpha_y=1e-4)]  # a mirror
 isotropic = False
 lobe = ("half vector", lambda p: min(p.alpha_x, p.alpha_y))
 

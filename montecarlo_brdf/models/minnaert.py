@@ -26,6 +26,7 @@ class Params(NamedTuple):
 
 domain = {"albedo": (0.0, 1.0), "k": (-0.45, 4.0)}
 verified = [Params(), Params(k=1.0), Params(k=0.5), Params(k=3.0)]
+limits = [({"k": 1.0}, "lambert")]
 disclaims = {"energy": "k < 1 reflects without bound at grazing: 26.17 at 89 degrees for k = 0.3"}
 scales_with = "albedo"
 

@@ -26,6 +26,7 @@ class Params(NamedTuple):
 
 domain = {"albedo": (0.0, 1.0), "sigma": (0.0, math.pi / 2.0)}
 verified = [Params(), Params(sigma=0.0), Params(albedo=0.5, sigma=1.2)]
+limits = [({"sigma": 0.0}, "lambert")]
 disclaims = {"energy": "albedo 1 reflects up to 1.015179 at grazing (sigma = 0.1985)"}
 scales_with = "albedo"
 kinks = ("mu_i=mu_o", "cos_phi=0")
