@@ -67,12 +67,13 @@ def command(**options: Any) -> int:
     quadrature, and the surface's albedo is at most 1.
     """
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.report import scene_plots
+    from montecarlo_brdf.report.plots import kind_of, plot
     from montecarlo_brdf.verify import SAMPLES
     from montecarlo_brdf.verify.radiance import radiance
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])
-    scene_plots.check_kind(options["plot"])
+    if options["plot"]:
+        kind_of(options["plot"])
     made = scene_from(options)
     with progress(f"radiance {made.name}") as update:
         report = radiance(
@@ -86,7 +87,7 @@ def command(**options: Any) -> int:
             progress=update,
         )
     if options["plot"]:
-        scene_plots.plot_radiance(report.to_dict(), options["plot"])
+        plot(report.to_dict(), options["plot"])
     if options["explain"] and options["form"] == "text":
         _explain(report.settings["plan"])
     for finding in report.results[0].findings:

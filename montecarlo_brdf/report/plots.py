@@ -8,6 +8,7 @@ from typing import Any
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.report.convergence_plots import convergence_figure
+from montecarlo_brdf.report.scene_plots import radiance_figure
 from montecarlo_brdf.report.write import write_bytes
 
 KINDS = ("png", "svg", "pdf")
@@ -161,4 +162,9 @@ def stress_figure(report: dict[str, Any]) -> Any:
 
 
 #: What is drawn of the report of each command.
-FIGURES = {"converge": convergence_figure, "furnace": albedo_figure, "stress": stress_figure}
+FIGURES = {
+    "converge": convergence_figure,
+    "furnace": albedo_figure,
+    "radiance": radiance_figure,
+    "stress": stress_figure,
+}

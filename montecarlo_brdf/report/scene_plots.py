@@ -2,35 +2,10 @@
 
 from __future__ import annotations
 
-import io
-from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf.errors import OutputError
-from montecarlo_brdf.report.write import write_bytes
-
-KINDS = ("png", "svg", "pdf")
 CHANNELS = ("#D55E00", "#009E73", "#0072B2", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 MOST_SERIES = len(CHANNELS)
-
-
-def check_kind(path: Path | None) -> None:
-    """Raise OutputError unless the file's name says a kind that can be drawn."""
-    if path is not None and path.suffix.lstrip(".").lower() not in KINDS:
-        raise OutputError(f"cannot draw {path}: the name must end in .png, .svg or .pdf")
-
-
-def plot_radiance(report: dict[str, Any], path: Path) -> None:
-    """Draw a radiance report."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    kind = path.suffix.lstrip(".").lower()
-    content = io.BytesIO()
-    with matplotlib.rc_context({"svg.hashsalt": "montecarlo_brdf"}):
-        metadata = {"Date": None} if kind == "svg" else {}
-        radiance_figure(report).savefig(content, format=kind, dpi=150, metadata=metadata)
-    write_bytes(path, content.getvalue())
 
 
 def radiance_figure(report: dict[str, Any]) -> Any:
@@ -47,7 +22,7 @@ def radiance_figure(report: dict[str, Any]) -> Any:
     top.set_title(
         f"{report['results'][0]['model']}{more}, verdict {report['verdict']}", fontsize=10
     )
-    top.set_ylabel("reflected radiance L_o")
+    top.set_ylabel("reflected radiance L_o (line: truth)")
     top.set_ylim(bottom=0.0)
     bottom.set_yscale("log")
     bottom.set_ylabel("|L_o - truth|")

@@ -95,23 +95,23 @@ def _channel(measure: Any, k: int, sampling: Plan) -> list[Measurement]:
 
 
 def energy_claims(
-    scene: Scene, sampling_plan: ScenePlan, tolerance: float | None
+    scene: Scene, furnace: ScenePlan, tolerance: float | None, reverse: bool = False
 ) -> Iterator[MeanClaim]:
-    """A <= 1 at every polar angle of the view."""
-    thetas = dict.fromkeys(theta for theta, _ in sampling_plan.views)
-    for theta in thetas:
+    """A <= 1 at every polar angle of the view, or R <= 1 with the light there."""
+    angle, quantity = ("theta_i_deg", "R <= 1") if reverse else ("theta_o_deg", "A <= 1")
+    for theta in dict.fromkeys(theta for theta, _ in furnace.views):
         view = (theta, scene.view.phi_o_deg[0])
-        measure = _remembered(sampling_plan, from_degrees(*sampling_plan.views[view]))
+        measure = _remembered(furnace, from_degrees(*furnace.views[view]))
         for k in range(scene.channels):
             yield MeanClaim(
-                "A <= 1",
-                place(scene, view, k),
+                quantity,
+                place(scene, view, k, angle),
                 "at most",
                 Reference(1.0, 0.0, "bound", "energy conservation"),
                 BOUND_TOLERANCE if tolerance is None else tolerance,
                 functools.partial(_channel, measure, k),
                 property="energy",
-                unit=_units(scene, k),
+                unit={} if reverse else _units(scene, k),
             )
 
 
@@ -162,11 +162,11 @@ def _weighted(measure: Any, shares: list[float], sampling: Plan) -> list[Measure
     return [Measurement(rows[0].estimator, radiance.combined(0.0, parts), unfit)]
 
 
-def place(scene: Scene, view: View, channel: int) -> dict[str, Any]:
+def place(scene: Scene, view: View, channel: int, angle: str = "theta_o_deg") -> dict[str, Any]:
     """Where a finding stands."""
-    where: dict[str, Any] = {"theta_o_deg": view[0]}
+    where: dict[str, Any] = {angle: view[0]}
     if len(scene.view.phi_o_deg) > 1 or view[1]:
-        where["phi_o_deg"] = view[1]
+        where[angle.replace("theta", "phi")] = view[1]
     if scene.band:
         return {**where, "nm": scene.band.wavelengths[channel]}
     return {**where, "channel": channel} if scene.channels > 1 else where

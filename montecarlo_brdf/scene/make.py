@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -70,9 +70,17 @@ def scene_of(
     count = widths.pop() if widths else 1
     surface = Surface(tuple(lobes_of(model, p, (1.0,) * count, count)))
     dark = (0.0,) * count
+    shown = {model.labels.get(k, k): v for k, v in p._asdict().items()} | dict(model.of(p).picks)
     name = f"{model.name} under {environment}"
-    scene = Scene(name, count, surface, sky.spread(count), ambient=dark, emission=dark)
+    words = ("--model", model.name, *assigned(shown), "--environment", environment)
+    scene = Scene(name, count, surface, sky.spread(count), ambient=dark, emission=dark, words=words)
     return with_views(scene, theta_o_deg)
+
+
+def assigned(values: Mapping[str, Any]) -> list[str]:
+    """-p name=value of every parameter."""
+    rows = ((k, v if isinstance(v, tuple) else (v,)) for k, v in values.items())
+    return [word for k, v in rows for word in ("-p", f"{k}={'/'.join(map(str, v))}")]
 
 
 def with_views(scene: Scene, theta_o_deg: Sequence[float]) -> Scene:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.scene.lights import Directional, Light, Point
+from montecarlo_brdf.scene.make import assigned
 from montecarlo_brdf.scene.read_surface import read_surface
 from montecarlo_brdf.scene.scene import Band, Scene, View
 from montecarlo_brdf.scene.sky_tables import read_sky
@@ -30,7 +32,8 @@ def read_scene(path: str | Path, **parameters: Any) -> Scene:
     top.wavelengths = band.wavelengths if band else None
     raw = _raw(top, parameters)
     top.done()
-    return _assembled(top, raw, band)
+    words = (str(path), *assigned(parameters))
+    return replace(_assembled(top, raw, band), words=words)
 
 
 def _raw(top: Table, parameters: dict[str, Any]) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from montecarlo_brdf.scene.lights import Light
@@ -39,7 +39,7 @@ class Scene:
     emission: tuple[float, ...] = (0.0,)
     view: View = View()
     band: Band | None = None
-    warnings: tuple[str, ...] = field(default=())
+    words: tuple[str, ...] = ()  # what says the same on a command line
 
     def under_constant_light(self, radiance: float) -> Scene:
         """The same surface in a white furnace: a constant sky and nothing else."""

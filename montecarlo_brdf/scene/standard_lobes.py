@@ -91,13 +91,27 @@ def as_lobes(scene: Scene) -> Scene:
     return replace(scene, surface=surface_of(scene.surface), emission=glow, ambient=dark)
 
 
+def factors(s: Standard) -> tuple[float, float]:
+    """What the diffuse and the specular colour must be multiplied with, beside n.l for the latter.
+
+    Then the lobes are Lambert and normalised Phong (Lafortune & Willems 1994) or Blinn-Phong
+    (Giesen 2009), whose albedos are at most their colours.
+    """
+    n = s.gloss
+    phong = (n + 2.0) / (2.0 * math.pi)
+    blinn = (n + 2.0) * (n + 4.0) / (8.0 * math.pi * (2.0 ** (-0.5 * n) + n))
+    return 1.0 / math.pi, phong if s.form == "phong" else blinn
+
+
 def mend(s: Standard) -> str:
-    """Which factors make a surface of it that conserves energy."""
-    highlight = {
-        "phong": f"(n + 2)/(2 pi) = {(s.gloss + 2.0) / (2.0 * math.pi):.4g} and by n.l",
-        "blinn": f"(n + 8)/(8 pi) = {(s.gloss + 8.0) / (8.0 * math.pi):.4g} and by n.l",
+    """What makes a surface of it that conserves energy."""
+    diffuse, specular = factors(s)
+    norm = {
+        "phong": "(n + 2)/(2 pi)",
+        "blinn": "(n + 2)(n + 4)/(8 pi (2^(-n/2) + n))",
     }[s.form]
+    exponent = ", without the exponent on its cosine" if s.gloss_on_diffuse else ""
     return (
-        "energy is conserved with the diffuse colour times 1/pi, the highlight times "
-        f"{highlight}, and diffuse + specular <= 1"
+        f"it would with the diffuse colour times 1/pi = {diffuse:.4g}{exponent}, the specular "
+        f"colour times {norm} = {specular:.4g} and n.l, and diffuse + specular <= 1"
     )

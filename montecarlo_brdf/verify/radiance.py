@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import functools
+import shlex
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
@@ -12,8 +14,10 @@ from montecarlo_brdf.integration import probe
 from montecarlo_brdf.integration.estimators import Plan
 from montecarlo_brdf.report.findings import Finding, Report, Result
 from montecarlo_brdf.report.judge import decide
+from montecarlo_brdf.report.sentences import place
 from montecarlo_brdf.scene import claims as scene_claims
 from montecarlo_brdf.scene.plan import ScenePlan
+from montecarlo_brdf.scene.reverse import reversed_scene
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.standard import Standard
 from montecarlo_brdf.scene.standard_lobes import as_lobes, mend
@@ -44,8 +48,9 @@ def radiance(
     """Reflected radiance L_o of a scene at all its views, per channel, with verdicts.
 
     scene: from `read_scene` or `scene_of`. skip: leave out what the scene does not need (never
-    changes a result beyond rounding and its error bar). energy: also judge A <= 1. samples: the
-    most that a claim may take. Raises UserError for a bad value, ModelError if a model fails.
+    changes a result beyond rounding and its error bar). energy: also judge A <= 1, and R <= 1 if
+    the surface is not reciprocal. samples: the most that a claim may take. Raises UserError for a
+    bad value, ModelError if a model fails.
     """
     sampling = planned(points, samples, seed, threads)
     check_tolerance(tolerance)
@@ -57,7 +62,11 @@ def radiance(
     findings: list[Finding] = []
     total = _count(scene, energy)
     for claim in _claims(scene, plan, tolerance, skip, energy):
-        findings.append(decide(claim, sampling, _known(scene, claim)))
+        finding = decide(claim, sampling, _known(scene, claim))
+        if finding.verdict not in ("pass", "skipped"):
+            command = reproduction(scene, finding, sampling, skip, tolerance)
+            finding = replace(finding, reproduce=command)
+        findings.append(finding)
         if progress:
             progress(min(1.0, len(findings) / total))
     settings = {
@@ -68,7 +77,7 @@ def radiance(
         "plan": explained(plan, sampling),
         **plan_settings(sampling),
     }
-    result = Result(scene.name, {}, "radiance", findings)
+    result = Result(scene.name, {}, "radiance", _with_reading(scene, findings))
     return reported("radiance", settings, [result], started)
 
 
@@ -93,6 +102,9 @@ def _claims(
         furnace = scene_claims.plan_of(scene.under_constant_light(1.0), skip)
         if energy:
             yield from scene_claims.energy_claims(scene, furnace, tolerance)
+            if reverse := reversed_scene(furnace.scene):
+                plan = scene_claims.plan_of(reverse, skip)
+                yield from scene_claims.energy_claims(scene, plan, tolerance, reverse=True)
         yield from scene_claims.band_claims(scene, furnace, tolerance)
 
 
@@ -110,11 +122,42 @@ def _known(scene: Scene, claim: Claim) -> str | None:
     if getattr(claim, "property", "") != "energy":
         return None
     if isinstance(scene.surface, Standard):
-        return f"the standard lighting equation does not conserve energy: {mend(scene.surface)}"
+        return "the standard lighting equation does not conserve energy"
     reasons = [
         lobe.model.disclaims.get("energy") for lobe in scene.surface.lobes if any(lobe.weights)
     ]
     return next((r for r in reasons if r), None)
+
+
+def reproduction(
+    scene: Scene, finding: Finding, sampling: Plan, skip: bool, tolerance: float | None
+) -> str | None:
+    """A command line that gives this finding again; None for a scene made by hand."""
+    if not scene.words:
+        return None
+    words = ["brdf-check", "radiance", *scene.words]
+    angles = [v for k, v in finding.where.items() if k.startswith("theta")]
+    words += [word for theta in angles for word in ("--theta-o", f"{theta:g}")]
+    defaults: dict[str, tuple[Any, Any]] = {
+        "--points": (sampling.points, "sobol"),
+        "--samples": (sampling.samples, SAMPLES),
+        "--seed": (sampling.seed, 0),
+        "--tolerance": (tolerance, None),
+    }
+    for option, (value, default) in defaults.items():
+        words += [option, str(value)] if value != default else []
+    return shlex.join(words if skip else [*words, "--no-skip"])
+
+
+def _with_reading(scene: Scene, findings: list[Finding]) -> list[Finding]:
+    """By how much the standard lighting equation gains energy, and which factors would mend it."""
+    gains = [f for f in findings if f.verdict == "known"]
+    if not gains or not isinstance(scene.surface, Standard):
+        return findings
+    worst = max(gains, key=lambda f: f.value)
+    told = f"it reflects up to {worst.value:.4g} times what arrives ({place(worst)})"
+    note = f"{worst.note}: {told}; {mend(scene.surface)}"
+    return [replace(f, note=note, hint=None) if f.verdict == "known" else f for f in findings]
 
 
 def explained(plan: ScenePlan, sampling: Plan) -> list[dict[str, Any]]:

@@ -6,10 +6,13 @@ from typing import Any
 import pytest
 from scenes import written
 
-from montecarlo_brdf.references._phong import single_axis
+import montecarlo_brdf as mb
+from montecarlo_brdf import references
+from montecarlo_brdf.references._phong import double_axis, single_axis
 from montecarlo_brdf.scene import claims, truth
+from montecarlo_brdf.scene.radiance import value_of
 from montecarlo_brdf.scene.standard import Standard, shade
-from montecarlo_brdf.scene.standard_lobes import as_lobes, surface_of
+from montecarlo_brdf.scene.standard_lobes import as_lobes, factors, surface_of
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.radiance import radiance
 
@@ -20,6 +23,8 @@ LIGHTS = [
     (from_degrees(50.0, 180.0), (0.3, 0.3, 1.1)),
     (from_degrees(0.0, 0.0), (0.4, 0.0, 0.2)),
 ]
+MENDED = [("phong", "phong", {}), ("blinn", "blinn_phong", {"norm": "exact"})]
+WO, WI = from_degrees(35.0), from_degrees(42.0, 170.0)
 AMBIENT, EMISSION = (0.05, 0.04, 0.1), (0.01, 0.0, 0.02)
 SURFACE = Standard((0.6, 0.3, 0.2), (0.4, 0.4, 0.1), gloss=13.0)
 
@@ -102,7 +107,14 @@ def test_energy_is_read_and_mended(tmp_path: Any) -> None:
     energy = [f for f in report.results[0].findings if f.quantity == "A <= 1"]
     assert report.exit_code == 0
     assert energy[0].verdict == "known"
+    gains = [f for f in report.results[0].findings if f.verdict == "known"]
+    most = max(f.value for f in gains)
+    assert f"up to {most:.4g} times what arrives (theta_i 85° ch 0); it would" in gains[0].note  # type: ignore[operator]
     assert "1/pi" in (energy[0].note or "")
+    for f in (f for f in report.results[0].findings if f.quantity == "R <= 1"):
+        mu, kd = from_degrees(f.where["theta_i_deg"])[2], (0.6, 0.3, 0.1)[f.where["channel"]]
+        exact = math.pi * kd + 0.4 * 2.0 * math.pi / 11.0 * double_axis(mu, 9.0) / mu
+        assert f.value == pytest.approx(exact, rel=3e-3)
     for f in energy:
         mu, kd = from_degrees(f.where["theta_o_deg"])[2], (0.6, 0.3, 0.1)[f.where["channel"]]
         exact = math.pi * kd + 0.4 * 2.0 * math.pi / 10.0 * single_axis(mu, 9.0)
@@ -112,6 +124,25 @@ def test_energy_is_read_and_mended(tmp_path: Any) -> None:
             furnace, from_degrees(f.where["theta_o_deg"]), f.where["channel"]
         )
         assert truth_now.value == pytest.approx(exact, rel=1e-12)
+
+
+@pytest.mark.parametrize(("form", "name", "norm"), MENDED)
+def test_what_mends_it(form: str, name: str, norm: dict[str, str]) -> None:
+    """With the factors and n.l the lobes are models that reflect no more than arrives."""
+    for n in (0.5, 4.0, 30.0, 900.0):
+        s = SURFACE._replace(form=form, gloss=n)
+        diffuse, specular = factors(s)
+        lobes = surface_of(s).lobes
+        model = mb.load(name, **norm)
+        p = model.parameters(ks=1.0, n=n)
+        assert diffuse * lobes[0].model.f(WO, WI, lobes[0].sets[0]) == pytest.approx(1.0 / math.pi)
+        old = value_of(lobes[1].model, lobes[1].sets[0], WO, WI)
+        assert specular * old * WI[2] == pytest.approx(value_of(model, p, WO, WI), rel=1e-12)
+        for theta in (0.0, 40.0, 80.0):
+            truth_now = references.albedo(
+                name, from_degrees(theta)[2], **p._asdict(), **model.picks
+            )
+            assert truth_now.value <= 1.0 + 1e-12
 
 
 def test_lobes_of_the_equation() -> None:
