@@ -75,9 +75,9 @@ def mutants() -> Iterator[Path]:
     return (p for p in sorted(MUTANTS.glob("*.py")) if not p.stem.startswith("test_"))
 
 
-def examine(path: Path, row: dict[str, Any]) -> None:
-    """What every check says of a mutant, where that is not known yet."""
-    for name in checks.names():
+def examine(path: Path, row: dict[str, Any], names: list[str]) -> None:
+    """What checks say of a mutant, where that is not known yet."""
+    for name in names:
         key = digest(path.read_bytes(), version(name).encode())
         if row.get(name, {}).get("key") != key:
             report = montecarlo_brdf.run(montecarlo_brdf.load(str(path)), names=[name])
@@ -161,6 +161,7 @@ def main() -> None:
     """Run what is missing, one mutant after the other, and write after each."""
     parser = argparse.ArgumentParser()
     parser.add_argument("names", nargs="*")
+    parser.add_argument("--check", help="some checks only, separated by commas")
     parser.add_argument("--time", action="store_true")
     parser.add_argument("--minutes", type=float, default=1e9)
     options = parser.parse_args()
@@ -171,7 +172,7 @@ def main() -> None:
             continue
         row = rows.setdefault(path.stem, {})
         if not options.time:
-            examine(path, row)
+            examine(path, row, options.check.split(",") if options.check else checks.names())
         elif "run" not in row and time.monotonic() < until:
             row["run"] = timed(path)
         print(path.stem, row.get("run", ""), flush=True)
