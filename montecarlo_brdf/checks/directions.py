@@ -29,6 +29,7 @@ SCATTERED = 100_000  # pairs with parameters of their own
 PREPARED = 32  # different ones where the model prepares them
 MIRROR = np.array([-1.0, -1.0, 1.0])
 NEIGHBOURS = 8
+SUSPECTS = 256  # pairs at a time that rounding may explain
 HIGHEST_COSINE = 1e-6  # ordinary random directions keep clear of the horizon by this
 
 
@@ -113,6 +114,23 @@ def rounding(f: Any, wo: Array, wi: Array, rng: Any) -> Array:
         moved = (w * (1.0 + 2.0**-52 * rng.integers(-2, 3, w.shape)) for w in (wo, wi))
         noise = np.fmax(noise, np.abs(f(*moved) - before))
     return noise
+
+
+def unexplained(
+    relative: Array, difference: Array, tolerance: float, f: Any, wo: Array, wi: Array, rng: Any
+) -> Array:
+    """`relative`, with 0 where rounding of the directions explains the difference: near grazing a
+    dot product such as wo . h may have no digit left."""
+    (suspect,) = np.nonzero(relative > tolerance)
+    suspect = suspect[np.argsort(-relative[suspect], kind="stable")]
+    rest = relative.copy()
+    for start in range(0, len(suspect), SUSPECTS):  # the worst first: one that stands is enough
+        some = suspect[start : start + SUSPECTS]
+        excused = difference[some] <= 2.0 * rounding(f, wo[some], wi[some], rng)
+        rest[some[excused]] = 0.0
+        if not excused.all():
+            break
+    return rest
 
 
 def place(wo: Array, wi: Array) -> dict[str, float]:

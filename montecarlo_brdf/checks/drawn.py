@@ -119,16 +119,16 @@ def jacobian(case: Case, theta: float) -> Exact:
 
 
 def _ratio(pdf: Any, area: Any, wo: Any, w: Any) -> str:
-    """What pdf times Jacobian is: by its shape where that has a name, by the directions that pdf
-    should have been asked for, by who is wider."""
+    """What pdf times Jacobian is: by the directions that pdf should have been asked for, by its
+    shape where that has a name, by who is wider."""
     density = pdf(wo, w)
     ratio, many = density * area, np.broadcast_to(wo, w.shape)
-    named = shape_named(ratio, many, w)
-    if named:
-        return f"pdf / density of the draws = {named}"
     meant = moved_named(lambda a, b: pdf(a, b) * area, many, w)
     if meant:
         return f"pdf is the density of the draws {meant}"
+    named = shape_named(ratio, many, w)
+    if named:
+        return f"pdf / density of the draws = {named}"
     low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
     said = f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
     return f"{said}{wider_named(ratio, density)}"

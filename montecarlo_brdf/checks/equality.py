@@ -72,6 +72,9 @@ def difference(case: Case, p: Any, other: Model, q: Any, rng: Any) -> Exact:
     high = np.maximum(np.abs(ours), np.abs(theirs))
     floor = max(1e-6 * float(np.median(high)), 1e-300)
     relative = np.abs(ours - theirs) / np.maximum(high, floor)
+    if relative.max(initial=0.0) > TOLERANCE:
+        f, apart = pointwise(case.model, p).f, np.abs(ours - theirs)
+        relative = directions.unexplained(relative, apart, TOLERANCE, f, wo, wi, rng)
     k = int(np.argmax(relative))
     where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = None
@@ -84,7 +87,8 @@ def difference(case: Case, p: Any, other: Model, q: Any, rng: Any) -> Exact:
 
 def _moved(case: Case, p: Any, other: Model, q: Any, rng: Any) -> str | None:
     """What turning or swapping directions says about the difference."""
-    wo, wi = directions.random_pairs(rng, 400)
+    kinds = directions.random_pairs(rng, 400), directions.lobe_pairs(case, p, rng, 2000)
+    wo, wi = (np.concatenate(side) for side in zip(*kinds, strict=True))
     ordinary = (wo[:, 2] > 0.1) & (wi[:, 2] > 0.1)
     wo, wi = wo[ordinary], wi[ordinary]
     one, two = pointwise(case.model, p).f, pointwise(other, q).f
@@ -117,6 +121,7 @@ def _hint(ours: Any, theirs: Any, wo: Any, wi: Any, k: int) -> str:
     named = shape_named(ratio[ordinary], wo[both][ordinary], wi[both][ordinary])
     if named:
         return f"f / f expected = {named}"
-    if np.count_nonzero(ours == ours.max()) > 20 and theirs.max() > ours.max():
+    clipped = 20 < np.count_nonzero(ours == ours.max()) < 0.9 * len(ours)  # or it is constant
+    if clipped and theirs.max() > ours.max():
         return f"f never exceeds {ours.max():.6g}: clipped, {theirs.max():.6g} is expected"
     return f"f = {ours[k]:.6g} where {theirs[k]:.6g} is expected"

@@ -21,6 +21,7 @@ FACTORS = {
     2.0 * math.pi: "a factor 2 pi too much: the pdf of uniform hemisphere sampling",
 }
 CLOSE = 2e-3
+FEWEST = 20  # pairs that a dependence must show in
 MIRRORED = np.array([-1.0, -1.0, 1.0])
 
 
@@ -100,11 +101,14 @@ def _quarter(w: Any) -> Any:
 def moved_named(ratio: Any, wo: Any, wi: Any) -> str | None:
     """How directions must be changed for ratio(wo, wi) to become 1, if it is one of the usual ways
     of confusing them."""
-    for name, move in MOVES.items():
-        values = ratio(*move(wo, wi))
-        if len(values) >= 100 and np.quantile(np.abs(values - 1.0), 0.9) < CLOSE:
-            return name
-    return None
+
+    def one(values: Any) -> bool:
+        values = values[np.isfinite(values)]
+        return len(values) >= 100 and bool(np.quantile(np.abs(values - 1.0), 0.9) < CLOSE)
+
+    if one(ratio(wo, wi)):  # it deviates in few places: not by confusing directions
+        return None
+    return next((name for name, move in MOVES.items() if one(ratio(*move(wo, wi)))), None)
 
 
 def wider_named(ratio: Any, density: Any) -> str:
@@ -119,20 +123,18 @@ def wider_named(ratio: Any, density: Any) -> str:
 
 
 def dependence_named(ratio: Any, wo: Any, wi: Any) -> str | None:
-    """What the deviation of two functions depends on, asked by moving the directions: on the half
+    """What the deviation of a ratio from 1 depends on, asked by moving the directions: on the half
     vector alone (distribution, Fresnel) or on the two polar angles alone (masking, cosines)."""
     before = ratio(wo, wi)
-    spread = np.nanquantile(before, 0.9) - np.nanquantile(before, 0.1)
-    if not spread > CLOSE:
-        return None
     for said, moved in (
         ("the half vector alone: look at the distribution and Fresnel", _about_half(wo, wi)),
         ("the polar angles alone: look at masking and cosines", (wo, _about_normal(wi))),
     ):
-        usable = (moved[0][:, 2] > 0.05) & (moved[1][:, 2] > 0.05)
-        change = np.abs(ratio(*moved) - before)[usable]
-        change = change[np.isfinite(change)]
-        if len(change) >= 50 and np.quantile(change, 0.9) < 1e-6 * max(1.0, float(spread)):
+        above = (moved[0][:, 2] > 0.05) & (moved[1][:, 2] > 0.05)
+        after = ratio(*moved)
+        told = above & (np.abs(before - 1.0) > CLOSE) & np.isfinite(before) & np.isfinite(after)
+        change = np.abs(after - before)[told] / np.abs(before - 1.0)[told]
+        if len(change) >= FEWEST and np.quantile(change, 0.9) < 0.01:
             return f"the ratio depends on {said}"
     return None
 

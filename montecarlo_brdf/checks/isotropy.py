@@ -52,6 +52,9 @@ def _worst(case: Case) -> Exact:
         high = np.where(usable, np.maximum(np.abs(before), np.abs(after)), 0.0)
         floor = max(NEGLIGIBLE * float(high.max(initial=0.0)), 1e-300)
         change = np.where(usable, np.abs(before - after), 0.0) / np.maximum(high, floor)
+        if change.max(initial=0.0) > TOLERANCE:
+            apart = np.abs(before - after)
+            change = directions.unexplained(change, apart, TOLERANCE, f.f, wo, wi, rng)
         j = int(np.argmax(change))
         points = found.points + len(wo)
         if change[j] >= found.value:

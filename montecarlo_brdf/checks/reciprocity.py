@@ -25,7 +25,6 @@ PROPERTY = "reciprocity"
 TOLERANCE = 1e-6
 #: values below this share of the largest are rounding
 NEGLIGIBLE = 1e-25
-SOME = 256  # pairs at a time that rounding may explain
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -83,29 +82,13 @@ def _worst_of(case: Case, p: Any, rng: Any) -> Exact:
     relative = _relative(there, back)
     k = int(np.argmax(relative))
     if relative[k] > TOLERANCE:
-        relative = _unexplained(f, wo, wi, relative, rng)
+        relative = directions.unexplained(relative, np.abs(there - back), TOLERANCE, f, wo, wi, rng)
     k = int(np.argmax(relative))
     where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = _hint(there[k], back[k], wo[k], wi[k])
     if relative[k] > TOLERANCE and "cosine" not in hint and _one_sided(case, p, rng):
         hint += ": f is symmetric but for a factor that depends on one direction alone"
     return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
-
-
-def _unexplained(f: Any, wo: Any, wi: Any, relative: Any, rng: Any) -> Any:
-    """`relative`, with 0 where rounding of the directions explains it: near grazing a dot product
-    such as wo . h may have no digit left."""
-    (suspect,) = np.nonzero(relative > TOLERANCE)
-    suspect = suspect[np.argsort(-relative[suspect], kind="stable")]
-    rest = relative.copy()
-    for start in range(0, len(suspect), SOME):  # the worst first: one that stands is enough
-        some = suspect[start : start + SOME]
-        difference = np.abs(f(wo[some], wi[some]) - f(wi[some], wo[some]))
-        excused = difference <= 2.0 * directions.rounding(f, wo[some], wi[some], rng)
-        rest[some[excused]] = 0.0
-        if not excused.all():
-            break
-    return rest
 
 
 def _one_sided(case: Case, p: Any, rng: Any) -> bool:
