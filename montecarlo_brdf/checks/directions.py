@@ -8,7 +8,6 @@ import numpy as np
 
 from montecarlo_brdf.checks import interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.integration.scattered import Rows
 
 Array = Any
 LAST = math.nextafter(0.5 * math.pi, 0.0)  # 90 degrees less an ulp: cos = 2.8e-16
@@ -96,14 +95,16 @@ def all_pairs(case: Case, p: Any, rng: Any) -> tuple[Array, Array]:
     return np.concatenate([k[0] for k in kinds]), np.concatenate([k[1] for k in kinds])
 
 
-def scattered_pairs(case: Case, rng: Any, n: int = SCATTERED) -> tuple[Array, Array, Rows]:
-    """Random pairs, each with free parameters of its own, now and then at the ends of their ranges:
-    what goes wrong in a corner of directions and parameters together."""
-    wo, wi = random_pairs(rng, n)
-    t = np.clip(1.1 * rng.random((n, len(case.free))) - 0.05, 0.0, 1.0)
-    if case.model.prepare:
-        t = t[np.arange(n) % PREPARED]
-    return wo, wi, interiors.rows(case, t)
+def worst_set(case: Case, rng: Any, deviation: Any, few: bool = False) -> Any:
+    """The parameters of the worst of many random pairs, each with free parameters of its own, now
+    and then at the ends of their ranges: what goes wrong in a corner of directions and parameters
+    together. deviation(wo, wi, parameter sets); few: parameters are costly to prepare."""
+    wo, wi = random_pairs(rng, SCATTERED)
+    t = np.clip(1.1 * rng.random((SCATTERED, len(case.free))) - 0.05, 0.0, 1.0)
+    if few or case.model.prepare:
+        t = t[np.arange(SCATTERED) % PREPARED]
+    sets = interiors.rows(case, t)
+    return sets.parameters(int(np.argmax(deviation(wo, wi, sets))))
 
 
 def rounding(f: Any, wo: Array, wi: Array, rng: Any) -> Array:

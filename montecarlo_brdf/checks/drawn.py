@@ -14,6 +14,7 @@ from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Exact
 from montecarlo_brdf.checks.hints import moved_named, shape_named, wider_named
+from montecarlo_brdf.integration.probe import returns_weight
 
 NAME = "pdf"  # whose streams these are
 STEP = 1e-5
@@ -63,11 +64,13 @@ def faults(case: Case, theta: float) -> Exact:
     rng = case.random(NAME, "edges", theta)
     edges = _edges()
     u = np.concatenate([edges, rng.random((POINTS, 3))])
-    w, _ = functions.sample(wo, u)
+    w, weights = functions.sample(wo, u)
     kinds = {"not finite": ~np.isfinite(w).all(axis=1)}
     length = np.sqrt(np.sum(np.where(np.isfinite(w), w, 0.0) ** 2, axis=1))
     above = ~kinds["not finite"] & (w[:, 2] > 0.0)
     kinds["not of unit length"] = above & (np.abs(length - 1.0) > UNIT_TOLERANCE)
+    if returns_weight(case.model):
+        kinds["with a weight that is not finite"] = above & ~np.isfinite(weights)
     dark = np.zeros(len(u), dtype=bool)
     if case.model.pdf is not None:
         up = np.where(above[:, None], w, wo)

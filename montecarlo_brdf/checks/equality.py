@@ -15,6 +15,7 @@ from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip
 from montecarlo_brdf.checks.hints import dependence_named, moved_named, shape_named
+from montecarlo_brdf.integration import scattered
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model
 
@@ -50,7 +51,17 @@ def claims(case: Case) -> Iterator[Claim]:
 
 def _worst(case: Case, other: Model) -> Exact:
     found = Exact(0.0, points=0)
-    for k, p in enumerate([*interiors.sets(case), *interiors.ends(case)]):
+
+    def apart(wo: Any, wi: Any, sets: scattered.Rows) -> Any:
+        same = scattered.rows(other, sets.columns(other.Params), shared(other, case.one), len(wo))
+        ours = scattered.pair_values(case.model, wo, wi, sets)
+        return _relative(ours, scattered.pair_values(other, wo, wi, same))
+
+    few = other.prepare is not None
+    sets = [*interiors.sets(case), *interiors.ends(case)]
+    if case.free:
+        sets.append(directions.worst_set(case, case.random(NAME, "all"), apart, few))
+    for k, p in enumerate(sets):
         one = difference(case, p, other, shared(other, p), case.random(NAME, k))
         points = found.points + one.points
         found = (one if one.value >= found.value else found)._replace(points=points)
@@ -69,9 +80,7 @@ def difference(case: Case, p: Any, other: Model, q: Any, rng: Any) -> Exact:
     ours, theirs = pointwise(case.model, p).f(wo, wi), pointwise(other, q).f(wo, wi)
     usable = np.isfinite(ours) & np.isfinite(theirs)
     ours, theirs = np.where(usable, ours, 0.0), np.where(usable, theirs, 0.0)
-    high = np.maximum(np.abs(ours), np.abs(theirs))
-    floor = max(1e-6 * float(np.median(high)), 1e-300)
-    relative = np.abs(ours - theirs) / np.maximum(high, floor)
+    relative = _relative(ours, theirs)
     if relative.max(initial=0.0) > TOLERANCE:
         f, apart = pointwise(case.model, p).f, np.abs(ours - theirs)
         relative = directions.unexplained(relative, apart, TOLERANCE, f, wo, wi, rng)
@@ -83,6 +92,14 @@ def difference(case: Case, p: Any, other: Model, q: Any, rng: Any) -> Exact:
         more = _moved(case, p, other, q, rng) if "everywhere" not in hint else None
         hint = f"{hint}; {more}" if more else hint
     return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
+
+
+def _relative(ours: Any, theirs: Any) -> Any:
+    """|f - f'|/f; 0 where one of them is not finite, which is positivity's business."""
+    difference = np.where(np.isfinite(ours) & np.isfinite(theirs), np.abs(ours - theirs), 0.0)
+    high = np.maximum(np.abs(ours), np.abs(theirs))
+    floor = max(1e-6 * float(np.nanmedian(high)), 1e-300)
+    return difference / np.fmax(high, floor)
 
 
 def _moved(case: Case, p: Any, other: Model, q: Any, rng: Any) -> str | None:

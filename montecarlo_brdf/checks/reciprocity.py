@@ -49,21 +49,17 @@ def worst(case: Case) -> Exact:
         found = (one if one.value > found.value or found.points == 0 else found)._replace(
             points=points
         )
+
+    def asymmetry(wo: Any, wi: Any, sets: scattered.Rows) -> Any:
+        there = scattered.pair_values(case.model, wo, wi, sets)
+        return _relative(there, scattered.pair_values(case.model, wi, wo, sets))
+
     if case.free:
-        p = _worst_set(case, case.random(NAME, "everywhere"))
+        p = directions.worst_set(case, case.random(NAME, "everywhere"), asymmetry)
         one = _worst_of(case, p, case.random(NAME, "there"))
         points = found.points + one.points + directions.SCATTERED
         found = (one if one.value > found.value else found)._replace(points=points)
     return found
-
-
-def _worst_set(case: Case, rng: Any) -> Any:
-    """The parameters of the worst of many pairs, each with parameters of its own."""
-    wo, wi, sets = directions.scattered_pairs(case, rng)
-    there = scattered.pair_values(case.model, wo, wi, sets)
-    back = scattered.pair_values(case.model, wi, wo, sets)
-    relative = _relative(there, back)
-    return sets.parameters(int(np.argmax(relative)))
 
 
 def _relative(there: Any, back: Any) -> Any:

@@ -150,6 +150,11 @@ class Rows(NamedTuple):
     shape: Any
     numbers: Any  # (n, numbers of a set as the model gets it)
 
+    def columns(self, fields: Any) -> dict[str, Any]:
+        """The columns whose names another NamedTuple has too."""
+        names = self.base._fields
+        return {n: self.values[:, names.index(n)] for n in fields._fields if n in names}
+
     def parameters(self, k: int) -> Any:
         """The parameter set of row k."""
         return type(self.base)(*map(float, self.values[k]))
