@@ -32,6 +32,7 @@ PLACES = (512, 4096, 16384)
 PREPARED = 48
 #: nodes of a mean: draws of the model's own sampler, or (slopes, azimuths) where it has none
 NODES = {"scan": (64, (16, 8)), "climb": (1024, (32, 24)), "polish": (8192, (96, 64))}
+CANDIDATES = 2048  # places of the scan among which the best are chosen
 KEPT = 64  # places of the scan that are looked at again
 APART = 0.15  # between two of them, in one of the coordinates
 CLIMBING = 4  # of them, places from which steps are made
@@ -156,6 +157,9 @@ def _spot(at: Array, value: float) -> Spot:
 def _best(places: Array, values: Array, count: int) -> Array:
     """The highest places, each at some distance from those before: a plateau is one of them."""
     chosen = []
+    if len(places) > CANDIDATES:
+        high = np.sort(np.argpartition(-values, CANDIDATES)[:CANDIDATES])
+        places, values = places[high], values[high]
     values = values.copy()
     for _ in range(min(count, len(places))):
         chosen.append(int(np.argmax(values)))

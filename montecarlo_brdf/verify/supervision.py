@@ -14,7 +14,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 TICK = 0.1  # seconds; waiting that cannot be interrupted (on Windows) must be short
-UNWINDING = 0.5  # seconds: an import that is cut off must be cleared away before others import
+UNWINDING = 0.25  # seconds: an import that is cut off must be cleared away before others import
 STACK = 64 << 20  # bytes: compilers recurse deeply, and some systems give threads little
 
 
