@@ -13,7 +13,7 @@ import numpy as np
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Exact
-from montecarlo_brdf.checks.hints import moved_named, shape_named, wider_named
+from montecarlo_brdf.checks.hints import azimuth_named, moved_named, shape_named, wider_named
 from montecarlo_brdf.integration.probe import returns_weight
 
 NAME = "pdf"  # whose streams these are
@@ -134,7 +134,7 @@ def _ratio(pdf: Any, area: Any, wo: Any, w: Any) -> str:
         return f"pdf / density of the draws = {named}"
     low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
     said = f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
-    return f"{said}{wider_named(ratio, density)}"
+    return f"{said}{azimuth_named(ratio, w) or wider_named(ratio, density)}"
 
 
 def weight(case: Case, theta: float) -> Exact:

@@ -122,6 +122,15 @@ def wider_named(ratio: Any, density: Any) -> str:
     return f": pdf is {kind} than the draws, compare their roughness or exponent"
 
 
+def azimuth_named(ratio: Any, w: Any) -> str:
+    """Whether a ratio changes with the azimuth of w and with hardly anything else."""
+    order = np.argsort(np.arctan2(w[:, 1], w[:, 0]))
+    within = np.mean([np.var(part) for part in np.array_split(ratio[order], 32)])
+    total = float(np.var(ratio))
+    changes = within < 0.1 * total and total > CLOSE**2
+    return ": it changes with the azimuth, look at how phi is drawn" if changes else ""
+
+
 def dependence_named(ratio: Any, wo: Any, wi: Any) -> str | None:
     """What the deviation of a ratio from 1 depends on, asked by moving the directions: on the half
     vector alone (distribution, Fresnel) or on the two polar angles alone (masking, cosines)."""
