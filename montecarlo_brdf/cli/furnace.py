@@ -50,6 +50,9 @@ Examples:
               "keeps --sampler and --points. [--method auto]  "
               "[default: auto with --target-error]")  # fmt: skip
 @_options.sampling_options
+@click.option("--resume", type=click.Path(path_type=Path), default=None, metavar="FILE",
+              help="Keep partial sums in FILE, every ten seconds and at Ctrl-C, and go on from "
+              "them: for billions of samples. [--resume sums.json]")  # fmt: skip
 @_options.output_options
 @click.option(
     "--plot",
@@ -64,11 +67,13 @@ def command(**options: Any) -> int:
     is estimated by every sampler that can be trusted for the case.
     """
     from montecarlo_brdf.report.plots import kind_of, plot
+    from montecarlo_brdf.verify.resumption import partial_sums
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])
     if options["plot"]:
         kind_of(options["plot"])
-    report = gather(options)
+    with partial_sums(options["resume"]) as sums:
+        report = gather(options, sums)
     if options["plot"]:
         plot(report.to_dict(), options["plot"])
     return _options.deliver(
@@ -76,7 +81,7 @@ def command(**options: Any) -> int:
     )
 
 
-def gather(options: dict[str, Any]) -> Report:
+def gather(options: dict[str, Any], sums: Any = None) -> Report:
     """One report over all models asked for."""
     from montecarlo_brdf.cli._jobs import models_of
     from montecarlo_brdf.cli._progress import progress
@@ -88,13 +93,13 @@ def gather(options: dict[str, Any]) -> Report:
     with progress("furnace") as update:
         for k, spec in enumerate(specs):
             share = lambda done, k=k: update((k + done) / len(specs))  # noqa: E731
-            reports.append(_one(spec, options, seed, share))
+            reports.append(_one(spec, options, seed, share, sums))
     results = [result for r in reports for result in r.results]
     seconds = sum(r.measured["seconds"] for r in reports)
     return Report("furnace", reports[0].settings, results, {"seconds": seconds})
 
 
-def _one(spec: str, options: dict[str, Any], seed: int, update: Any) -> Report:
+def _one(spec: str, options: dict[str, Any], seed: int, update: Any, sums: Any) -> Report:
     from montecarlo_brdf import loading, verify
     from montecarlo_brdf.cli._values import number, numbers, parameter_sets
 
@@ -115,4 +120,5 @@ def _one(spec: str, options: dict[str, Any], seed: int, update: Any) -> Report:
         method=options["method"],
         progress=update,
         curve=bool(options["plot"] or options["export_json"]),
+        sums=sums,
     )

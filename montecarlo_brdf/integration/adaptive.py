@@ -224,7 +224,7 @@ def _climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Climb:
         shape = shape_of(points, size)
         if size * plan.replicates > work.CHUNK:
             job = work.Job(setting.entry, reals, width, key, plan.replicates, size, shape)
-            rows = zip(*work.run(job, plan.threads), strict=True)
+            rows = zip(*work.run(job, plan.threads, None, plan.sums), strict=True)
             states = [x for row in rows for m in row for x in m]
         else:
             states = ladder.states(size, shape)

@@ -135,6 +135,7 @@ def kernel_of(recipe: Buildable) -> native.NativeKernel:
     with _lock:
         if key not in _loaded:
             _loaded[key] = _from_disk(key) or _from_source(recipe, key)
+            _loaded[key].key = key  # type: ignore[attr-defined]  # partial sums are found by it
         _seen[parts] = _loaded[key]
         return _loaded[key]
 

@@ -6,7 +6,7 @@ import functools
 import math
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.integration import build, charted, integrands, kernel, parameters, probe, work
@@ -15,6 +15,9 @@ from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import Vec, from_degrees
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.integration.partial_sums import PartialSums
 
 REPLICATES = 16
 SAMPLERS = ("uniform", "cosine", "own")
@@ -40,6 +43,7 @@ class Plan(NamedTuple):
     progress: work.Progress | None = None
     target_error: float | None = None  # relative; None: just the samples asked for
     method: str = "given"  # or "auto": sampler and points are chosen, also with a target
+    sums: PartialSums | None = None  # where long jobs keep how far they are
 
 
 def check_samples(samples: Any) -> int:
@@ -265,7 +269,7 @@ def evaluate(
         reals = (*(*fixed, 0.0)[: kernel.QUERY], *numbers)
         shape = SHAPES[plan.points](per_replicate) if plan.points in SHAPES else NONE
         job = work.Job(entry, reals, width, key, replicates, per_replicate, shape)
-        results = [estimate(m) for m in work.run(job, plan.threads, plan.progress)]
+        results = [estimate(m) for m in work.run(job, plan.threads, plan.progress, plan.sums)]
         rows += [results[i : i + len(functions)] for i in range(0, width, len(functions))]
     return rows
 

@@ -10,15 +10,18 @@ from __future__ import annotations
 import ctypes
 import itertools
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration.kernel import BLOCK, STATE
 from montecarlo_brdf.integration.native import NativeKernel
 from montecarlo_brdf.sampling.keys import NONE, Shape
 from montecarlo_brdf.statistics import Moments, merged
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.integration.partial_sums import PartialSums
 
 CHUNK = 1 << 17
 LONGEST = 0.1  # seconds that a call should take at most
@@ -46,21 +49,31 @@ class Call(NamedTuple):
     count: int  # type: ignore[assignment]  # hides tuple.count, which nobody asks a call for
 
 
-def run(job: Job, threads: int = 1, progress: Progress | None = None) -> list[list[Moments]]:
-    """Moments per result and replicate: run(job)[result][replicate]."""
+def run(
+    job: Job,
+    threads: int = 1,
+    progress: Progress | None = None,
+    sums: PartialSums | None = None,
+) -> list[list[Moments]]:
+    """Moments per result and replicate: run(job)[result][replicate].
+
+    sums: where a long job's partial sums are kept, and taken up again.
+    """
     if job.replicates * job.samples <= CHUNK:
         return _whole(job, progress)
-    stacks: list[list[list[tuple[int, Moments]]]] = [
-        [[] for _ in range(job.replicates)] for _ in range(job.width)
-    ]
-    done = 0
-    for call, states in zip(calls(job), _outcomes(job, threads), strict=False):
+    begun = sums.begun(job) if sums else None
+    done, stacks = begun or (0, [[[] for _ in range(job.replicates)] for _ in range(job.width)])
+    rest = itertools.islice(calls(job), done, None)
+    for call, states in _outcomes(job, rest, threads):
         for r in range(call.many):
             for k in range(job.width):
                 _push(stacks[k][call.first + r], states[r * job.width + k])
-        done += call.many * call.count
+        done += 1
+        if sums:
+            sums.keep(job, done, stacks)
         if progress:
-            progress(done / (job.replicates * job.samples))
+            progress((call.first * job.samples + call.many * (call.start + call.count))
+                     / (job.replicates * job.samples))  # fmt: skip
     return [[_total(stack) for stack in row] for row in stacks]
 
 
@@ -82,15 +95,16 @@ def calls(job: Job) -> Iterator[Call]:
             )
 
 
-def _outcomes(job: Job, threads: int) -> Iterable[list[Moments]]:
-    """Results of the calls in their order; a bounded number is under way at any time."""
-    if threads == 1 or job.replicates * job.samples <= CHUNK:
-        yield from (_call(job, c) for c in calls(job))
+def _outcomes(
+    job: Job, queue: Iterator[Call], threads: int
+) -> Iterator[tuple[Call, list[Moments]]]:
+    """The calls with their results, in order; a bounded number is under way at any time."""
+    if threads == 1:
+        yield from ((c, _call(job, c)) for c in queue)
         return
     with ThreadPoolExecutor(threads) as pool:
-        queue = calls(job)
         while batch := list(itertools.islice(queue, 16 * threads)):
-            yield from pool.map(lambda c: _call(job, c), batch)
+            yield from zip(batch, pool.map(lambda c: _call(job, c), batch), strict=True)
 
 
 def _call(job: Job, call: Call) -> list[Moments]:

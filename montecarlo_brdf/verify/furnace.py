@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.checks import furnace as furnace_check
 from montecarlo_brdf.checks.case import Case
@@ -25,6 +25,9 @@ from montecarlo_brdf.verify.common import (
 )
 from montecarlo_brdf.verify.subject import probed, source
 
+if TYPE_CHECKING:
+    from montecarlo_brdf.integration.partial_sums import PartialSums
+
 ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0)
 
 
@@ -44,6 +47,7 @@ def furnace(
     method: str | None = None,
     progress: Progress | None = None,
     curve: bool = False,
+    sums: PartialSums | None = None,
 ) -> Report:
     """White furnace test of a model with one or several parameter sets.
 
@@ -52,8 +56,9 @@ def furnace(
     claim may take; it stops sooner where it is decided. tolerance: relative for A, absolute for
     A <= 1. target_error: relative; A is sampled until its 99 % interval is as narrow, by the method
     that fits the model best (method "auto", which without a target chooses for `samples`). curve:
-    add the reference at every degree, for pictures. Raises UserError for a bad value, ModelError if
-    the model does not run.
+    add the reference at every degree, for pictures. sums: `verify.resumption.partial_sums(file)`,
+    where billions of samples survive an interruption. Raises UserError for a bad value, ModelError
+    if the model does not run.
     """
     sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
     angles = theta_o_deg if isinstance(theta_o_deg, (list, tuple)) else [theta_o_deg]
@@ -61,7 +66,7 @@ def furnace(
     chosen = chosen_samplers(model, sampler)
     chosen_method = method or ("given" if target_error is None else "auto")
     plan = planned(points, samples, seed, threads)
-    plan = plan._replace(target_error=target_error, method=chosen_method)
+    plan = plan._replace(target_error=target_error, method=chosen_method, sums=sums)
     adaptive.check_plan(plan)
     check_tolerance(tolerance)
     started = time.perf_counter()

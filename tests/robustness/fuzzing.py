@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from hypothesis import strategies as st
 
@@ -93,89 +92,3 @@ def command_lines() -> st.SearchStrategy[list[str]]:
 def in_folder(arguments: list[str], folder: Path) -> list[str]:
     """The same command line writing into a folder of its own."""
     return [a.replace("FOLDER", str(folder)) for a in arguments]
-
-
-LINES = [
-    "import math",
-    "def f(wo, wi, p):",
-    "    return 0.3",
-    "def sample(wo, u, p):",
-    "    return u",
-    "def pdf(wo, wi, p):",
-    "class Params:",
-    "    albedo = 1",
-    "domain = 3",
-    "domain = {'a': 1}",
-    "choices = {'n': {}}",
-    "choices = 7",
-    "choices = {'n': {'a': 1}}",
-    "verified = 5",
-    "f = 3",
-    "raise",
-    "raise SystemExit",
-    "1/0",
-    "disclaims = []",
-    "lobe = 1",
-    "def f(a):",
-    "prepare = f",
-    "\tx",
-    "'''",
-    "kinks = 3",
-    "from nowhere import f",
-    "isotropic = 'no'",
-    "lossless = 'x'",
-    "scales_with = 4",
-]
-
-
-def model_files() -> st.SearchStrategy[bytes]:
-    """Files made of lines that model files are made of, or of anything."""
-    lines = st.lists(st.sampled_from(LINES), max_size=8).map("\n".join)
-    whole = lines.map(lambda t: f"def f(wo, wi, p):\n    return 0.3\n{t}\n")
-    return st.one_of(whole.map(str.encode), lines.map(str.encode), st.binary(max_size=60))
-
-
-def reports() -> st.SearchStrategy[Any]:
-    """JSON that looks like a report, with anything in any place."""
-    leaf = st.none() | st.booleans() | st.floats() | st.integers() | st.text(max_size=4)
-    anything = st.recursive(
-        leaf,
-        lambda s: (
-            st.lists(s, max_size=3)
-            | st.dictionaries(
-                st.sampled_from(["where", "value", "quantity", "theta_o_deg", "x"]), s, max_size=3
-            )
-        ),
-        max_leaves=6,
-    )
-    finding = st.fixed_dictionaries(
-        {
-            "quantity": st.just("A") | anything,
-            "where": st.just({"theta_o_deg": 30.0}) | anything,
-            "verdict": st.just("pass") | anything,
-        },
-        optional={
-            "value": anything,
-            "stderr": anything,
-            "expected": anything,
-            "tolerance": anything,
-        },
-    )
-    result = st.fixed_dictionaries(
-        {
-            "model": st.just("x") | anything,
-            "params": st.just({}) | anything,
-            "findings": st.lists(finding, max_size=3) | anything,
-        },
-        optional={"curves": anything, "check": anything},
-    )
-    command = st.sampled_from(["furnace", "stress", "run", None])
-    report = st.fixed_dictionaries(
-        {
-            "schema": st.just(1),
-            "command": command,
-            "verdict": st.just("pass") | anything,
-            "results": st.lists(result | anything, max_size=2),
-        }
-    )
-    return report | anything | st.text(max_size=30)

@@ -1,19 +1,24 @@
-"""Short fuzzing of everything that reads: the command line, model files, reports.
+"""Short fuzzing of everything that reads: the command line, models, reports, scenes, settings.
 
 The long runs are scripts/fuzz.py, which draws from the same strategies.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
 from pathlib import Path
 from typing import Any
 
+import fuzzed_files
 import fuzzing
 import pytest
 from hypothesis import HealthCheck, given, settings
 
+from montecarlo_brdf.cli import _project
 from montecarlo_brdf.cli import execute as run
+from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.scene.read import read_scene
 
 QUIET = settings(
     deadline=None,
@@ -32,7 +37,7 @@ def test_command_lines(
 
 
 @QUIET
-@given(fuzzing.model_files())
+@given(fuzzed_files.model_files())
 def test_model_files(tmp_path: Path, capsys: pytest.CaptureFixture[str], content: bytes) -> None:
     path = tmp_path / "fuzzed.py"
     path.write_bytes(content)
@@ -40,8 +45,26 @@ def test_model_files(tmp_path: Path, capsys: pytest.CaptureFixture[str], content
 
 
 @settings(QUIET, max_examples=25)
-@given(fuzzing.reports())
+@given(fuzzed_files.reports())
 def test_reports(tmp_path: Path, capsys: pytest.CaptureFixture[str], report: Any) -> None:
     path = tmp_path / "report.json"
     path.write_text(report if isinstance(report, str) else json.dumps(report))
     assert run(["plot", str(path), "-o", str(tmp_path / "out.svg")]) in fuzzing.ANSWERS
+
+
+@settings(QUIET, max_examples=40)
+@given(fuzzed_files.scenes())
+def test_scenes(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_bytes(content)
+    with contextlib.suppress(UserError):
+        read_scene(path)
+
+
+@settings(QUIET, max_examples=40)
+@given(fuzzed_files.settings())
+def test_settings(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "brdf-check.toml"
+    path.write_bytes(content)
+    with contextlib.suppress(UserError):
+        _project.read(path)
