@@ -89,10 +89,12 @@ def examples(strategy: Any) -> Iterator[Any]:
 
     many = settings(max_examples=100, database=None, deadline=None, phases=[Phase.generate],
                     suppress_health_check=list(HealthCheck))  # fmt: skip
+    found: list[Any] = []
+    fill = many(given(strategy)(lambda drawn: found.append(drawn)))
     while True:
-        found: list[Any] = []
-        many(given(strategy)(lambda drawn, found=found: found.append(drawn)))()
+        fill()
         yield from found
+        found.clear()
 
 
 def warm(folder: Path) -> None:
