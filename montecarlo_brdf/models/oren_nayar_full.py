@@ -72,11 +72,25 @@ def direct(wo: Vec, wi: Vec, b: float, c3: float) -> float:
     c = cos_azimuth(wo, wi)
     high, low = turned_low(wo, wi)
     steep = max(wi[2], wo[2])  # the cosine of the smaller angle
-    backward = low * low * low if c < 0.0 else 0.0
-    c2 = b * (max(s_i, s_o) - backward)
+    c2 = b * (risen(wo, wi) if c < 0.0 else max(s_i, s_o))
     product = high * low
     middle = (s_i + s_o) / (wi[2] + wo[2])  # tan((a + b)/2)
-    return c * c2 * min(s_i, s_o) / steep + (1.0 - abs(c)) * c3 * product * product * middle
+    return c * c2 * min(s_i, s_o) / steep + across(wo, wi, c) * c3 * product * product * middle
+
+
+def risen(wo: Vec, wi: Vec) -> float:
+    """sin a - (2b/pi)^3, as (1 - (2b/pi)^3) - (1 - sin a): both vanish where tan b has its pole."""
+    steep, flat = max(wi[2], wo[2]), min(wi[2], wo[2])
+    s_steep, s_flat = min(sine(wi), sine(wo)), max(sine(wi), sine(wo))
+    up = 2.0 / math.pi * polar_angle(steep, s_steep)  # 1 - 2b/pi
+    low = 1.0 - up
+    return up * (1.0 + low + low * low) - flat * flat / (1.0 + s_flat)
+
+
+def across(wo: Vec, wi: Vec, c: float) -> float:
+    """1 - |cos(dphi)| by the sine, which keeps its digits where the cosine is near 1."""
+    s = (wi[0] * wo[1] - wi[1] * wo[0]) / max(sine(wi) * sine(wo), TINY)
+    return min(1.0, s * s / (1.0 + abs(c)))
 
 
 def interreflected(wo: Vec, wi: Vec) -> float:

@@ -11,6 +11,8 @@ from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 
 #: Darker than this, per steradian, nobody sees the error (f0 = 0 leaves (1 - h.v)^5 = 1e-40).
 BLACK = 1e-20
+#: Where one rounding of the directions moves f by this part of itself, it has no digit to lose.
+UNDETERMINED = 0.25
 
 
 class Errors(NamedTuple):
@@ -35,6 +37,14 @@ def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
     conditioning = _conditioning(wide, wo, wi, q, truth, type_.eps)
     conditioning = conditioning + _finite_distance(raw, truth, truth_type)
     with np.errstate(all="ignore"):
+        found = judged(value, truth, conditioning, points, type_, truth_type)
+        at = np.flatnonzero(found.own > type_.tolerance)
+        if not len(at):
+            return found
+        # A step or a root of f may lie behind, within eps of both directions together: r.v = 0 of
+        # Phong with n < 1. Where f is smooth, twice the move does twice as much.
+        back = _conditioning(wide, wo[at], wi[at], q, truth[at], -2.0 * type_.eps)
+        conditioning[at] = np.where(back > 3 * conditioning[at], back, conditioning[at])
         return judged(value, truth, conditioning, points, type_, truth_type)
 
 
@@ -64,7 +74,11 @@ def judged(
         "nan": _is_nan(shown),
         "inf": _is_inf(shown) & (size <= type_.most),
         "negative": (shown < 0) & (truth >= 0) & (-shown > granted),
-        "flushed": (shown == 0) & (size >= type_.tiny) & (off > 2 * conditioning) & ~low,
+        "flushed": (shown == 0)
+        & (size >= type_.tiny)
+        & (off > 2 * conditioning)
+        & ~low
+        & (conditioning < UNDETERMINED * size),
     }
     broken = (kinds["nan"] | kinds["inf"]) & ~low
     counted = real & (size <= type_.most) & (size > 0)
@@ -73,7 +87,7 @@ def judged(
     own = np.where(
         counted & (off > 2 * conditioning), _double((off - 2 * conditioning) / size), 0.0
     )
-    own = np.where(_double(conditioning / size) >= 0.25, 0.0, own)  # no digit is determined
+    own = np.where(_double(conditioning / size) >= UNDETERMINED, 0.0, own)
     return Errors(
         value, truth, np.where(broken, np.inf, total), np.where(broken, np.inf, own), kinds, low
     )
