@@ -24,4 +24,27 @@ def read_report(path: Path) -> dict[str, Any]:
         raise UserError(
             f"{path} has schema {data.get('schema')}; this version reads schema {SCHEMA}"
         )
+    if not all(map(_is_result, data["results"])):
+        raise UserError(f"{path} is not a report of brdf-check: its results are damaged")
     return data
+
+
+def _is_result(result: Any) -> bool:
+    """Whether this has what every result and every finding has."""
+    return (
+        isinstance(result, dict)
+        and isinstance(result.get("params"), dict)
+        and isinstance(result.get("model"), str)
+        and isinstance(result.get("check"), str)
+        and isinstance(result.get("findings"), list)
+        and all(map(_is_finding, result["findings"]))
+    )
+
+
+def _is_finding(finding: Any) -> bool:
+    return (
+        isinstance(finding, dict)
+        and isinstance(finding.get("quantity"), str)
+        and isinstance(finding.get("where"), dict)
+        and isinstance(finding.get("verdict"), str)
+    )

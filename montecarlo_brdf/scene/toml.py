@@ -26,6 +26,8 @@ def parse(path: Path) -> tuple[dict[str, Any], str]:
         raise UserError(f"{path} is not a TOML file: it is not text") from error
     except tomllib.TOMLDecodeError as error:
         raise UserError(f"{path} is not a TOML file: {error}") from error
+    except RecursionError as error:
+        raise UserError(f"{path} is nested too deeply") from error
 
 
 class Table:

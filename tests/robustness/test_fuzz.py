@@ -68,3 +68,18 @@ def test_settings(tmp_path: Path, content: bytes) -> None:
     path.write_bytes(content)
     with contextlib.suppress(UserError):
         _project.read(path)
+
+
+DEEP = "[surface]\nmodel = 'lambert'\nalbedo = " + "[" * 3000 + "]" * 3000
+BARE = '{"schema": 1, "command": "run", "verdict": "pass", "results": [[{}]]}'
+
+
+def test_what_long_runs_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Recursion in a TOML file; a baseline whose results are none."""
+    (tmp_path / "deep.toml").write_text(DEEP)
+    (tmp_path / "bare.json").write_text(BARE)
+    baseline = ["run", "--model", "lambert", "--check", "isotropy", "--baseline"]
+    assert run(["radiance", str(tmp_path / "deep.toml")]) == 2
+    assert "nested too deeply" in capsys.readouterr().err
+    assert run([*baseline, str(tmp_path / "bare.json")]) == 2
+    assert "results are damaged" in capsys.readouterr().err
