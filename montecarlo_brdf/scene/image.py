@@ -78,20 +78,9 @@ def check_size(path: Path, width: int, height: int) -> None:
 
 
 def _png(path: Path) -> Any:
-    """8 or 16 bit sRGB, made linear."""
-    import warnings
+    from montecarlo_brdf.scene.png import read_png
 
-    import numpy as np
-    from PIL import Image as Pillow
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", Pillow.DecompressionBombWarning)
-        with Pillow.open(path) as picture:
-            check_size(path, *picture.size)
-            mode = "RGB" if picture.mode not in ("L", "I;16", "I") else picture.mode
-            data = np.asarray(picture.convert(mode), dtype=np.float64)
-    s = data / (65535.0 if mode in ("I;16", "I") else 255.0)
-    return np.where(s <= 0.04045, s / 12.92, ((s + 0.055) / 1.055) ** 2.4)
+    return read_png(path)
 
 
 def _npy(path: Path) -> Any:

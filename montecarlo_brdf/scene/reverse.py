@@ -53,7 +53,7 @@ def _reciprocal(lobe: Lobe) -> bool:
 def _exchanged(lobe: Lobe) -> Lobe:
     model = lobe.model
     weighted = model.pdf is None or probe.returns_weight(model)  # a weight is that of f itself
-    sampler = {"sample": None, "pdf": None} if weighted else {}
+    sampler: dict[str, Any] = {"sample": None, "pdf": None} if weighted else {}
     name = f"{model.name}, exchanged"
     made = replace(model, name=name, f=_bound(plain(model.f)), built_in=False, **sampler)
     return lobe._replace(name=f"{lobe.name}, exchanged", model=made)
