@@ -39,7 +39,7 @@ SKIES = (
     '[environment]\nkind = "gradient"\ntop = {colour}\nbottom = {colour}\n',
     '[environment]\nkind = "cosine"\nexponent = {exponent}\nradiance = {colour}\naxis = {axis}\n',
     '[environment]\nkind = "cap"\nhalf_angle_deg = {angle}\nradiance = {colour}\naxis = {axis}\n',
-    '[environment]\nkind = "harmonics"\ncoefficients = [2, 0.3, {small}, 0.2, 0.1, 0, {small}, 0, 0.1]\n',
+    '[environment]\nkind = "harmonics"\ncoefficients = [2, 0.3, {small}, 0.2]\n',
     '[environment]\nkind = "image"\nfile = "sky.npy"\nscale = {number}\n',
 )  # fmt: skip
 LIGHTS = (
@@ -55,7 +55,9 @@ def filled(draw: random.Random, text: str) -> str:
         "width": lambda: draw.choice(("0.1", "0.3", "1.0")),
         "exponent": lambda: draw.choice(("1", "5", "30")),
         "angle": lambda: f"{draw.uniform(3.0, 100.0):.3f}",
-        "axis": lambda: f"{{tilt_deg = {draw.uniform(0, 130):.3f}, azimuth_deg = {draw.uniform(0, 360):.2f}}}",
+        "axis": lambda: "{tilt_deg = {tilt}, azimuth_deg = {turn}}",
+        "tilt": lambda: f"{draw.uniform(0.0, 130.0):.3f}",
+        "turn": lambda: f"{draw.uniform(0.0, 360.0):.3f}",
         "small": lambda: f"{draw.uniform(-0.3, 0.3):.3f}",
         "number": lambda: draw.choice(("0", "0.5", "2.0")),
     }  # fmt: skip

@@ -71,10 +71,9 @@ Examples:
 )
 @click.option(
     "--camera",
-    default="0",
-    show_default=True,
     metavar="TILT[:AZIMUTH]",
-    help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]",
+    help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]  "
+    "[default: where the scene says, else on the axis]",
 )
 @click.option(
     "--seed",
@@ -110,7 +109,7 @@ def command(**options: Any) -> int:
             raise UserError(
                 f"{name} must be a whole number from {low} to {high}, not {options[name]}"
             )
-    camera = from_degrees(*_camera(options["camera"]))
+    camera = from_degrees(*_camera(options["camera"])) if options["camera"] else None
     cases, columns = scenes_of(options)
     made = []
     with progress("render") as update:

@@ -86,4 +86,4 @@ def assigned(values: Mapping[str, Any]) -> list[str]:
 def with_views(scene: Scene, theta_o_deg: Sequence[float]) -> Scene:
     """The scene seen from other polar angles."""
     angles = tuple(check_theta(t) for t in theta_o_deg)
-    return replace(scene, view=View(angles, scene.view.phi_o_deg))
+    return replace(scene, view=scene.view._replace(theta_o_deg=angles))

@@ -107,8 +107,9 @@ def _view(table: Table) -> View:
         raise table.error(
             f"theta_o_deg must be angles in [0, 90) degrees, not {list(theta)}", "theta_o_deg"
         )
+    camera = table.direction("camera", View().camera)
     table.done()
-    return View(theta, phi)
+    return View(theta, phi, camera)
 
 
 def _assembled(top: Table, raw: dict[str, Any], band: Band | None) -> Scene:

@@ -40,16 +40,19 @@ def render(
     samples: int = 256,
     seed: int = 0,
     threads: int = 1,
-    camera: Vec = (0.0, 0.0, 1.0),
+    camera: Vec | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Sphere:
     """The sphere of a scene, `samples` per pixel where pixels are sampled.
+
+    camera: unit vector towards the viewer; the scene's own by default.
 
     Raises UserError for a sky with negative radiance below the horizon, which a flat surface does
     not see; ModelError if a model fails.
     """
     import numpy as np
 
+    camera = scene.view.camera if camera is None else camera
     scene = whole_sky(as_lobes(scene))
     plan = make(scene, sphere=True)
     inside, disk = disk_of(size)

@@ -10,13 +10,15 @@ from montecarlo_brdf.scene.skies import Constant, Sky
 from montecarlo_brdf.scene.spectrum import Pairs
 from montecarlo_brdf.scene.standard import Standard
 from montecarlo_brdf.scene.surface import Surface
+from montecarlo_brdf.vectors import NORMAL, Vec
 
 
 class View(NamedTuple):
-    """Directions of the viewer in degrees: every theta with every phi."""
+    """Directions of the viewer in degrees: every theta with every phi; of a sphere, one camera."""
 
     theta_o_deg: tuple[float, ...] = (0.0, 30.0, 60.0, 85.0)
     phi_o_deg: tuple[float, ...] = (0.0,)
+    camera: Vec = NORMAL
 
 
 class Band(NamedTuple):

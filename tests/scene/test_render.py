@@ -74,8 +74,9 @@ def _lamp(file: Path, sky: str) -> Any:
 @pytest.mark.parametrize("camera", [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)])
 def test_a_sphere_sees_the_sky_below_the_horizon(camera: Any, tmp_path: Path) -> None:
     """A cap that does not light a flat surface lights the sphere's lower side."""
-    scene = _lamp(tmp_path, 'kind = "cap"\nhalf_angle_deg = 20\naxis = {tilt_deg = 130}')
-    sphere = render(scene, size=9, samples=1 << 12, camera=camera)
+    sky = 'kind = "cap"\nhalf_angle_deg = 20\naxis = {tilt_deg = 130}'
+    scene = _lamp(tmp_path, f"{sky}\n[view]\ncamera = {list(camera)}")
+    sphere = render(scene, size=9, samples=1 << 12)
     normals = np.zeros((9, 9, 3))
     normals[sphere.inside] = in_world(disk_of(9)[1], camera)
     axis = np.array(from_degrees(130.0))

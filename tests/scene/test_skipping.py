@@ -1,12 +1,14 @@
 """Skipping what a scene does not need changes no result beyond rounding and the error bars."""
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenes import EXAMPLES, estimates
+from scenes import EXAMPLES, estimates, written
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import student
@@ -37,6 +39,36 @@ def _agree(scene: Scene, theta: float, samples: int) -> None:
 def test_examples(file: Any) -> None:
     for theta in (0.0, 60.0):
         _agree(read_scene(file), theta, 1 << 16)
+
+
+WIDER = {
+    "mixture under harmonics": """
+[surface]
+model = "0.3 lambert + 0.5 ggx"
+[environment]
+kind = "harmonics"
+coefficients = [[2, 0.3, 0.1, 0.2], [2, 0.3, 0.1, 0.2], [0, 0, 0, 0]]
+""",
+    "GGX under an image": """
+[[surface.lobes]]
+weight = [0.5, 0.5, 0]
+model = "ggx"
+alpha = 0.3
+[[surface.lobes]]
+weight = 0
+model = "phong"
+[environment]
+kind = "image"
+file = "sky.npy"
+""",
+}
+
+
+@pytest.mark.parametrize("name", WIDER)
+def test_other_surfaces_and_skies(name: str, tmp_path: Path) -> None:
+    """A wider study of 200 scenes is scripts/skipping_study.py."""
+    np.save(tmp_path / "sky.npy", np.random.default_rng(0).random((8, 16)) ** 6)
+    _agree(written(tmp_path, WIDER[name]), 40.0, 1 << 14)
 
 
 angles = st.tuples(st.floats(0.0, 130.0), st.floats(0.0, 360.0)).map(lambda a: from_degrees(*a))
