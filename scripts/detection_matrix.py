@@ -1,7 +1,7 @@
 """Detection matrix: every known-bad BRDF of tests/mutants against every check, default settings.
 
-    python scripts/detection_matrix.py [NAME ...]            verdicts, as far as they are missing
-    python scripts/detection_matrix.py --time [--minutes 3]  seconds of a warm `brdf-check run`
+    python scripts/detection_matrix.py [--jobs 2] [NAME ...]  verdicts, as far as they are missing
+    python scripts/detection_matrix.py --time [--minutes 3]   seconds of a warm `brdf-check run`
 
 Resumable: what scripts/results/detection_matrix.json holds of an unchanged mutant and an unchanged
 check (with what it imports of `checks` and `report`) is not run again. Writes
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import concurrent.futures
 import functools
 import hashlib
 import json
@@ -75,14 +76,16 @@ def mutants() -> Iterator[Path]:
     return (p for p in sorted(MUTANTS.glob("*.py")) if not p.stem.startswith("test_"))
 
 
-def examine(path: Path, row: dict[str, Any], names: list[str]) -> None:
-    """What checks say of a mutant, where that is not known yet."""
+def examined(path: Path, row: dict[str, Any], names: list[str]) -> dict[str, Any]:
+    """What checks say of a mutant, where that is not known yet, added to what is."""
+    row = dict(row)
     for name in names:
         key = digest(path.read_bytes(), version(name).encode())
         if row.get(name, {}).get("key") != key:
             report = montecarlo_brdf.run(montecarlo_brdf.load(str(path)), names=[name])
             findings = [f for r in report.results for f in r.findings]
             row[name] = {"key": key, **summary(findings)}
+    return row
 
 
 def summary(findings: list[Any]) -> dict[str, Any]:
@@ -158,27 +161,49 @@ def _line(path: Path, row: dict[str, Any], names: list[str]) -> str:
 
 
 def main() -> None:
-    """Run what is missing, one mutant after the other, and write after each."""
+    """Run what is missing, write after each mutant, then the table if nothing is missing."""
     parser = argparse.ArgumentParser()
     parser.add_argument("names", nargs="*")
     parser.add_argument("--check", help="some checks only, separated by commas")
+    parser.add_argument("--jobs", type=int, default=1, help="processes; 1 is used with --time")
     parser.add_argument("--time", action="store_true")
     parser.add_argument("--minutes", type=float, default=1e9)
     options = parser.parse_args()
     rows = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
-    until = time.monotonic() + 60.0 * options.minutes
-    for path in mutants():
-        if options.names and path.stem not in options.names:
-            continue
-        row = rows.setdefault(path.stem, {})
-        if not options.time:
-            examine(path, row, options.check.split(",") if options.check else checks.names())
-        elif "run" not in row and time.monotonic() < until:
-            row["run"] = timed(path)
-        print(path.stem, row.get("run", ""), flush=True)
-        RESULTS.write_text(json.dumps(rows, indent=1, sort_keys=True) + "\n")
+    chosen = [p for p in mutants() if not options.names or p.stem in options.names]
+    if options.time:
+        time_all(chosen, rows, 60.0 * options.minutes)
+    else:
+        names = options.check.split(",") if options.check else checks.names()
+        examine_all(chosen, rows, names, options.jobs)
     if all(set(checks.names()) <= set(rows.get(p.stem, {})) for p in mutants()):
         TABLE.write_text(table(rows), encoding="utf-8")
+
+
+def examine_all(paths: list[Path], rows: dict[str, Any], names: list[str], jobs: int) -> None:
+    """Verdicts of many mutants, by several processes."""
+    with concurrent.futures.ProcessPoolExecutor(jobs) as pool:
+        waiting = {pool.submit(examined, p, rows.get(p.stem, {}), names): p for p in paths}
+        for done in concurrent.futures.as_completed(waiting):
+            path = waiting[done]
+            rows[path.stem] = done.result()
+            keep(rows, path)
+
+
+def time_all(paths: list[Path], rows: dict[str, Any], seconds: float) -> None:
+    """Seconds of those that are not timed yet, one after the other."""
+    until = time.monotonic() + seconds
+    for path in paths:
+        row = rows.setdefault(path.stem, {})
+        if "run" not in row and time.monotonic() < until:
+            row["run"] = timed(path)
+            keep(rows, path)
+
+
+def keep(rows: dict[str, Any], path: Path) -> None:
+    """Write what is known."""
+    print(path.stem, rows[path.stem].get("run", ""), flush=True)
+    RESULTS.write_text(json.dumps(rows, indent=1, sort_keys=True) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,66 @@
+"""Hints name a cause from arrays of values, and stay silent where there is none."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from montecarlo_brdf.checks import hints
+
+RNG = np.random.default_rng(1)
+
+
+def directions(n: int = 2000) -> Any:
+    """Directions that keep clear of the horizon."""
+    z, phi = RNG.uniform(0.1, 1.0, n), RNG.uniform(0.0, 2.0 * np.pi, n)
+    s = np.sqrt(1.0 - z * z)
+    return np.stack([s * np.cos(phi), s * np.sin(phi), z], axis=-1)
+
+
+WO, WI = directions(), directions()
+
+
+def density(wo: Any, wi: Any) -> Any:
+    """Not symmetric in anything."""
+    return wi[:, 2] * (1.0 + 0.5 * wi[:, 0]) * (2.0 + wo[:, 0] * wi[:, 1])
+
+
+@pytest.mark.parametrize(
+    ("moved", "words"),
+    [
+        (lambda a, b: density(b, a), "wo and wi swapped"),
+        (lambda a, b: density(a, b * hints.MIRRORED), "mirror direction"),
+    ],
+)
+def test_confused_directions(moved: Any, words: str) -> None:
+    truth = density(WO, WI)
+    assert words in str(hints.moved_named(lambda a, b: moved(a, b) / truth, WO, WI))
+
+
+def test_no_confusion_without_deviation() -> None:
+    """A reciprocal f is also right with wo and wi swapped: that is no cause."""
+    assert hints.moved_named(lambda a, b: np.ones(len(a)), WO, WI) is None
+    assert hints.moved_named(lambda a, b: density(a, b) ** 2, WO, WI) is None
+
+
+def test_dependence() -> None:
+    def half(a: Any, b: Any) -> Any:
+        h = a + b
+        return h[:, 2] / np.sqrt(np.sum(h * h, axis=1))
+
+    one = hints.dependence_named(lambda a, b: 1.0 + half(a, b) ** 8, WO, WI)
+    two = hints.dependence_named(lambda a, b: 1.0 + a[:, 2] * b[:, 2] ** 2, WO, WI)
+    both = hints.dependence_named(lambda a, b: 1.0 + half(a, b) * b[:, 2], WO, WI)
+    assert "distribution" in str(one) and "masking" in str(two) and both is None
+
+
+def test_widths_and_azimuths() -> None:
+    ratio = 0.9 + 0.2 * WI[:, 2]
+    assert "narrower" in hints.wider_named(ratio, WI[:, 2])
+    assert "wider" in hints.wider_named(1.0 / ratio, WI[:, 2])
+    assert hints.wider_named(np.ones(len(WI)), WI[:, 2]) == ""
+    phi = np.arctan2(WI[:, 1], WI[:, 0])
+    assert "azimuth" in hints.azimuth_named(1.0 + 0.02 * np.sin(phi), WI)
+    assert hints.azimuth_named(ratio, WI) == ""
