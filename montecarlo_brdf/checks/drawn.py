@@ -60,30 +60,39 @@ def faults(case: Case, theta: float) -> Exact:
     Numbers exactly at an end of [0, 1) may give a direction where pdf and f are both 0, as u = 0
     does for u^(1/(n + 1)): no light, with probability 0. It is told, not refuted.
     """
-    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    rng = case.random(NAME, "edges", theta)
     edges = _edges()
-    u = np.concatenate([edges, rng.random((POINTS, 3))])
-    w, weights = functions.sample(wo, u)
-    kinds = {"not finite": ~np.isfinite(w).all(axis=1)}
-    length = np.sqrt(np.sum(np.where(np.isfinite(w), w, 0.0) ** 2, axis=1))
-    above = ~kinds["not finite"] & (w[:, 2] > 0.0)
-    kinds["not of unit length"] = above & (np.abs(length - 1.0) > UNIT_TOLERANCE)
-    if returns_weight(case.model):
-        kinds["with a weight that is not finite"] = above & ~np.isfinite(weights)
-    dark = np.zeros(len(u), dtype=bool)
+    u = np.concatenate([edges, case.random(NAME, "edges", theta).random((POINTS, 3))])
+    kinds, dark = _kinds(case, np.array(case.wo(theta)), u)
+    dark[len(edges) :] = False  # elsewhere than at the ends it is a fault like any other
     if case.model.pdf is not None:
-        up = np.where(above[:, None], w, wo)
-        density = functions.pdf(wo, up)
-        dark[: len(edges)] = ((density == 0.0) & above & (functions.f(wo, up) == 0.0))[: len(edges)]
-        kinds["with a pdf that is not positive and finite"] = (
-            above & ~dark & ~(np.isfinite(density) & (density > 0.0))
-        )
+        kinds["with a pdf that is not positive and finite"] &= ~dark
     counts = {name: int(bad.sum()) for name, bad in kinds.items()}
     said = ", ".join(f"{n} draws {name}" for name, n in counts.items() if n)
     first = next((int(np.argmax(bad)) for bad in kinds.values() if bad.any()), 0)
     hint = f"{said} (first at u = {tuple(float(v) for v in u[first])})" if said else None
     return Exact(float(sum(counts.values())), points=len(u), note=_told(u[dark]), hint=hint)
+
+
+def _kinds(case: Case, wo: Any, u: Any) -> tuple[dict[str, Any], Any]:
+    """Which draws have which fault, and which have neither pdf nor f."""
+    functions = pointwise(case.model, case.one)
+    w, weights = functions.sample(wo, u)
+    finite = np.isfinite(w).all(axis=1)
+    length = np.sqrt(np.sum(np.where(np.isfinite(w), w, 0.0) ** 2, axis=1))
+    above, dark = finite & (w[:, 2] > 0.0), np.zeros(len(u), dtype=bool)
+    kinds = {
+        "not finite": ~finite,
+        "not of unit length": above & (np.abs(length - 1.0) > UNIT_TOLERANCE),
+    }
+    if returns_weight(case.model):
+        kinds["with a weight that is not finite"] = above & ~np.isfinite(weights)
+    if case.model.pdf is not None:
+        up = np.where(above[:, None], w, wo)
+        density = functions.pdf(wo, up)
+        bad = ~(np.isfinite(density) & (density > 0.0))
+        kinds["with a pdf that is not positive and finite"] = above & bad
+        dark = above & (density == 0.0) & (functions.f(wo, up) == 0.0)
+    return kinds, dark
 
 
 def _told(u: Any) -> str | None:
