@@ -89,22 +89,25 @@ def lobe_pairs(case: Case, p: Any, rng: Any, n: int = LOBE) -> tuple[Array, Arra
     return wo[above], wi[above]
 
 
-def all_pairs(case: Case, p: Any, rng: Any) -> tuple[Array, Array]:
-    """Edges, random pairs, special pairs and pairs along the lobe."""
-    kinds = [edge_pairs(), random_pairs(rng), special_pairs(rng), lobe_pairs(case, p, rng)]
+def all_pairs(case: Case, p: Any, rng: Any, *more: tuple[Array, Array]) -> tuple[Array, Array]:
+    """Edges, random pairs, special pairs, pairs along the lobe, and `more`."""
+    kinds = [edge_pairs(), random_pairs(rng), special_pairs(rng), lobe_pairs(case, p, rng), *more]
     return np.concatenate([k[0] for k in kinds]), np.concatenate([k[1] for k in kinds])
 
 
-def worst_set(case: Case, rng: Any, deviation: Any, few: bool = False) -> Any:
-    """The parameters of the worst of many random pairs, each with free parameters of its own, now
-    and then at the ends of their ranges: what goes wrong in a corner of directions and parameters
-    together. deviation(wo, wi, parameter sets); few: parameters are costly to prepare."""
+def worst_pair(
+    case: Case, rng: Any, deviation: Any, few: bool = False
+) -> tuple[Any, tuple[Array, Array]]:
+    """(parameters, pair) of the worst of many random pairs, each with free parameters of its own,
+    now and then at the ends of their ranges: what goes wrong in a corner of directions and
+    parameters together. deviation(wo, wi, parameter sets); few: they are costly to prepare."""
     wo, wi = random_pairs(rng, SCATTERED)
     t = np.clip(1.1 * rng.random((SCATTERED, len(case.free))) - 0.05, 0.0, 1.0)
     if few or case.model.prepare:
         t = t[np.arange(SCATTERED) % PREPARED]
     sets = interiors.rows(case, t)
-    return sets.parameters(int(np.argmax(deviation(wo, wi, sets))))
+    k = int(np.argmax(deviation(wo, wi, sets)))
+    return sets.parameters(k), (wo[k : k + 1], wi[k : k + 1])
 
 
 def rounding(f: Any, wo: Array, wi: Array, rng: Any) -> Array:

@@ -58,11 +58,11 @@ def _worst(case: Case, other: Model) -> Exact:
         return _relative(ours, scattered.pair_values(other, wo, wi, same))
 
     few = other.prepare is not None
-    sets = [*interiors.sets(case), *interiors.ends(case)]
+    looks: list[tuple[Any, ...]] = [(p,) for p in (*interiors.sets(case), *interiors.ends(case))]
     if case.free:
-        sets.append(directions.worst_set(case, case.random(NAME, "all"), apart, few))
-    for k, p in enumerate(sets):
-        one = difference(case, p, other, shared(other, p), case.random(NAME, k))
+        looks.append(directions.worst_pair(case, case.random(NAME, "all"), apart, few))
+    for k, (p, *more) in enumerate(looks):
+        one = difference(case, p, other, shared(other, p), case.random(NAME, k), *more)
         points = found.points + one.points
         found = (one if one.value >= found.value else found)._replace(points=points)
     return found
@@ -74,9 +74,9 @@ def shared(other: Model, p: Any) -> Any:
     return other.parameters(**{n: v for n, v in p._asdict().items() if n in names})
 
 
-def difference(case: Case, p: Any, other: Model, q: Any, rng: Any) -> Exact:
-    """The worst relative difference of two models' values."""
-    wo, wi = directions.all_pairs(case, p, rng)
+def difference(case: Case, p: Any, other: Model, q: Any, rng: Any, *more: Any) -> Exact:
+    """The worst relative difference of two models' values; `more` pairs than usual."""
+    wo, wi = directions.all_pairs(case, p, rng, *more)
     ours, theirs = pointwise(case.model, p).f(wo, wi), pointwise(other, q).f(wo, wi)
     usable = np.isfinite(ours) & np.isfinite(theirs)
     ours, theirs = np.where(usable, ours, 0.0), np.where(usable, theirs, 0.0)
@@ -89,8 +89,8 @@ def difference(case: Case, p: Any, other: Model, q: Any, rng: Any) -> Exact:
     hint = None
     if relative[k] > TOLERANCE:
         hint = _remapped(ours, wo, wi, other, q) or _hint(ours, theirs, wo, wi, k)
-        more = _moved(case, p, other, q, rng) if "everywhere" not in hint else None
-        hint = f"{hint}; {more}" if more else hint
+        moved = _moved(case, p, other, q, rng) if "everywhere" not in hint else None
+        hint = f"{hint}; {moved}" if moved else hint
     return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
+from montecarlo_brdf.integration import scattered
 
 NAME = "positivity"
 QUESTION = "finite and >= 0 everywhere?"
@@ -46,9 +47,22 @@ def claims(case: Case) -> Iterator[Claim]:
     )
 
 
+def _lowest(case: Case) -> Any:
+    """How low f is at many pairs, each with parameters of its own; what is no number first."""
+
+    def lowest(wo: Any, wi: Any, sets: scattered.Rows) -> Any:
+        f = scattered.pair_values(case.model, wo, wi, sets)
+        return np.where(np.isfinite(f), -f, np.inf)
+
+    return lowest
+
+
 def _values(case: Case) -> Iterator[tuple[Any, Any, Any, Any]]:
-    for k, p in enumerate([*interiors.sets(case), *interiors.ends(case)]):
-        wo, wi = directions.all_pairs(case, p, case.random(NAME, k))
+    looks: list[tuple[Any, ...]] = [(p,) for p in (*interiors.sets(case), *interiors.ends(case))]
+    if case.free:
+        looks.append(directions.worst_pair(case, case.random(NAME, "all"), _lowest(case)))
+    for k, (p, *more) in enumerate(looks):
+        wo, wi = directions.all_pairs(case, p, case.random(NAME, k), *more)
         yield p, wo, wi, pointwise(case.model, p).f(wo, wi)
 
 

@@ -55,8 +55,8 @@ def worst(case: Case) -> Exact:
         return _relative(there, scattered.pair_values(case.model, wi, wo, sets))
 
     if case.free:
-        p = directions.worst_set(case, case.random(NAME, "everywhere"), asymmetry)
-        one = _worst_of(case, p, case.random(NAME, "there"))
+        p, pair = directions.worst_pair(case, case.random(NAME, "everywhere"), asymmetry)
+        one = _worst_of(case, p, case.random(NAME, "there"), pair)
         points = found.points + one.points + directions.SCATTERED
         found = (one if one.value > found.value else found)._replace(points=points)
     return found
@@ -71,8 +71,8 @@ def _relative(there: Any, back: Any) -> Any:
     return np.abs(there - back) / np.maximum(high, floor if floor > 0.0 else 1.0)
 
 
-def _worst_of(case: Case, p: Any, rng: Any) -> Exact:
-    wo, wi = directions.all_pairs(case, p, rng)
+def _worst_of(case: Case, p: Any, rng: Any, *more: Any) -> Exact:
+    wo, wi = directions.all_pairs(case, p, rng, *more)
     f = pointwise(case.model, p).f
     there, back = f(wo, wi), f(wi, wo)
     relative = _relative(there, back)
