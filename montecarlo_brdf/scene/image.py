@@ -86,7 +86,10 @@ def _png(path: Path) -> Any:
 def _npy(path: Path) -> Any:
     import numpy as np
 
-    return np.load(path, allow_pickle=False)
+    values = np.load(path, mmap_mode="r", allow_pickle=False)  # the size, before it is read
+    if values.ndim in (2, 3):
+        check_size(path, values.shape[1], values.shape[0])
+    return np.array(values)
 
 
 def _exr(path: Path) -> Any:

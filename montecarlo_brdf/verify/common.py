@@ -95,6 +95,11 @@ def check_tolerance(tolerance: float | None) -> None:
         raise UserError(f"tolerance must be a number in [0, 1), not {tolerance}")
 
 
+def exactly(value: float) -> str:
+    """A number with all its digits, and no more."""
+    return f"{value:g}" if float(f"{value:g}") == value else repr(float(value))
+
+
 def shown_parameters(model: Model, p: Any) -> dict[str, Any]:
     """Parameters and choices by name, as reports print them."""
     return {**{model.labels.get(k, k): v for k, v in p._asdict().items()}, **model.picks}

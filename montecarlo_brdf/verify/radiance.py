@@ -25,6 +25,7 @@ from montecarlo_brdf.verify.common import (
     SAMPLES,
     Progress,
     check_tolerance,
+    exactly,
     plan_settings,
     planned,
     reported,
@@ -137,12 +138,12 @@ def reproduction(
         return None
     words = ["brdf-check", "radiance", *scene.words]
     angles = [v for k, v in finding.where.items() if k.startswith("theta")]
-    words += [word for theta in angles for word in ("--theta-o", f"{theta:g}")]
+    words += [word for theta in angles for word in ("--theta-o", exactly(theta))]
     defaults: dict[str, tuple[Any, Any]] = {
         "--points": (sampling.points, "sobol"),
         "--samples": (sampling.samples, SAMPLES),
         "--seed": (sampling.seed, 0),
-        "--tolerance": (tolerance, None),
+        "--tolerance": (None if tolerance is None else exactly(tolerance), None),
     }
     for option, (value, default) in defaults.items():
         words += [option, str(value)] if value != default else []

@@ -22,6 +22,7 @@ from montecarlo_brdf.verify.common import (
     Deadline,
     Progress,
     check_tolerance,
+    exactly,
     plan_settings,
     planned,
     reported,
@@ -157,9 +158,9 @@ def reproduction(case: Case, name: str, plan: Plan) -> str:
         values = value if isinstance(value, tuple) else (value,)
         if not (case.free and key in {case.model.labels.get(n, n) for n in case.free}):
             words += ["-p", f"{key}={'/'.join(str(v) for v in values)}"]
-    words += ["--theta-o", ",".join(map(_exactly, case.theta_o_deg))]
+    words += ["--theta-o", ",".join(map(exactly, case.theta_o_deg))]
     defaults = {
-        "--phi-o": (_exactly(case.phi_o_deg), "0"),
+        "--phi-o": (exactly(case.phi_o_deg), "0"),
         "--points": (plan.points, "sobol"),
         "--samples": (plan.samples, RUN_SAMPLES),
         "--seed": (plan.seed, 0),
@@ -168,13 +169,8 @@ def reproduction(case: Case, name: str, plan: Plan) -> str:
     for option, (value, default) in defaults.items():
         words += [option, str(value)] if value != default else []
     if case.tolerance is not None:
-        words += ["--tolerance", _exactly(case.tolerance)]
+        words += ["--tolerance", exactly(case.tolerance)]
     return shlex.join(words)
-
-
-def _exactly(value: float) -> str:
-    """A number with all its digits, and no more."""
-    return f"{value:g}" if float(f"{value:g}") == value else repr(float(value))
 
 
 def _checks(names: Sequence[str] | None) -> list[str]:

@@ -85,6 +85,11 @@ def _write(folder: Path, kind: str) -> str:
     elif kind == "truncated.hdr":
         (folder / "bad.hdr").write_bytes(b"#?RADIANCE\n\n-Y 64 +X 128\n" + bytes(20))
         return "bad.hdr"
+    elif kind == "large.npy":
+        with (folder / "bad.npy").open("wb") as file:
+            shape = {"descr": "<f4", "fortran_order": False, "shape": (100_000, 200_000, 3)}
+            np.lib.format.write_array_header_1_0(file, shape)
+            file.truncate(file.tell() + 4 * 100_000 * 200_000 * 3)  # a hole: no bytes on the disk
     elif kind == "large.hdr":
         (folder / "bad.hdr").write_bytes(b"#?RADIANCE\n\n-Y 900000 +X 900000\n")
         return "bad.hdr"
@@ -103,6 +108,7 @@ def _write(folder: Path, kind: str) -> str:
         ("truncated.png", "damaged"),
         ("truncated.hdr", "truncated"),
         ("large.hdr", "too large"),
+        ("large.npy", "too large"),
         ("gif", "must be a .png, .hdr, .exr or .npy file"),
     ],
 )
