@@ -87,18 +87,35 @@ def _pair(a: Moments, b: Moments) -> Moments:
 
 def estimate(replicates: Sequence[Moments]) -> Estimate:
     """The mean over equally large replicates and the standard error from their spread."""
-    means = [m.mean for m in replicates]
-    count = len(means)
-    mean = math.fsum(means) / count if all(map(math.isfinite, means)) else math.nan
-    spread = math.fsum([(m - mean) ** 2 for m in means])
+    return _estimate(list(zip(*replicates, strict=True)))
+
+
+def estimates_of(states: Sequence[float], width: int, method: str = "") -> list[Estimate]:
+    """The same for `width` results, whose moments stand side by side for each replicate."""
+    fields, stride = len(Moments._fields), len(Moments._fields) * width
+    return [
+        _estimate([tuple(states[fields * k + i :: stride]) for i in range(fields)], method)
+        for k in range(width)
+    ]
+
+
+def _estimate(columns: Sequence[tuple[float, ...]], method: str = "") -> Estimate:
+    """`columns`: the fields of Moments, one number per replicate each."""
+    counts, means, squares, largest = columns
+    count, each = len(means), counts[0]
+    total = sum(means)
+    if not math.isfinite(total):
+        nan = math.nan
+        return Estimate(nan, nan, int(count * each), means, nan, max(largest), method)
+    mean = math.fsum(means) / count
+    spread = math.fsum([(m - mean) * (m - mean) for m in means])
     stderr = math.sqrt(spread / (count * (count - 1))) if count > 1 else math.inf
-    squares = math.fsum([m.squares for m in replicates]) if math.isfinite(mean) else math.nan
-    each = replicates[0].count
     return Estimate(
         mean,
-        max(stderr, FLOOR * abs(mean)) if math.isfinite(mean) else math.nan,
+        max(stderr, FLOOR * abs(mean)),
         int(count * each),
-        tuple(means),
-        squares / (count * each) + spread / count + mean * mean,
-        max([m.largest for m in replicates]),
+        means,
+        math.fsum(squares) / (count * each) + spread / count + mean * mean,
+        max(largest),
+        method,
     )

@@ -12,6 +12,7 @@ import numpy as np
 
 LARGEST = 20
 CANDIDATES = 64
+BETWEEN = (144, 448)
 
 
 def zaremba(n: int) -> np.ndarray:
@@ -33,7 +34,9 @@ def zaremba(n: int) -> np.ndarray:
 def second(n: int) -> int:
     """The best z; among equals the one with the smallest P_4."""
     index = zaremba(n)
-    best = 2 * np.flatnonzero(index == index.max()) + 1
+    z = 2 * np.arange(len(index)) + 1
+    index = np.where(np.gcd(z, n) == 1, index, 0)
+    best = z[index == index.max()]
     return int(min(best, key=lambda z: (p4(n, [1, int(z)]), z)))
 
 
@@ -66,6 +69,13 @@ def further(n: int, first: int) -> list[int]:
     return chosen
 
 
+def degree(n: int, z: int) -> int:
+    """The smallest |h1| + |h2| of the dual lattice: the first wave that is not integrated."""
+    h = np.arange(1, n)
+    other = h * z % n
+    return int((h + np.minimum(other, n - other)).min())
+
+
 def main() -> None:
     """Print the table."""
     print("GENERATORS: dict[int, tuple[int, int, int, int]] = {")
@@ -73,7 +83,13 @@ def main() -> None:
         n = 1 << m
         first = second(n) if m > 2 else 1
         print(f"    {m}: {(first, *further(n, first))},")
+    print("}\nBETWEEN: dict[int, tuple[int, int, int, int]] = {")
+    for n in BETWEEN:
+        first = second(n)
+        print(f"    {n}: {(first, *further(n, first))},")
     print("}")
+    for n in (128, 144, 160, 192, 224, 256, 288, 320, 384, 448, 512, 576):
+        print(f"# {n}: exact below |h1| + |h2| = {degree(n, second(n))}")
 
 
 if __name__ == "__main__":

@@ -55,8 +55,8 @@ def test_a_lobe_that_the_cosine_chart_misses_is_not_believed():
     wo = from_degrees(60.0)
     plan = adaptive.Plan(target_error=1e-3)
     setting = adaptive.prepare(ggx, p, type(p), adaptive.Method("cosine", "lattice", ""))
-    climb = adaptive._climb(setting, wo, plan, final=False)
-    assert not climb.reached and "probed value" in climb.complaint
+    outcome = adaptive.climb(setting, wo, plan, final=False)
+    assert not outcome.reached and "probed value" in outcome.complaint
 
 
 def test_falls_back_to_the_models_own_sampler(tmp_path):

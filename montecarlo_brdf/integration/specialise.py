@@ -183,7 +183,11 @@ class Specialiser:
 
     def bind(self, function: Function, bound: Mapping[str, Any]) -> Any:
         """`function` compiled with the names in `bound` standing for the functions given."""
-        compiled = self._compile(self.clone(function, bound))
+        return self.compiled(self.clone(function, bound))
+
+    def compiled(self, clone: Function) -> Any:
+        """A clone compiled, for others to call as it is."""
+        compiled = self._compile(clone)
         self._twins[id(compiled)] = compiled
         return compiled
 

@@ -29,8 +29,9 @@ def smooth_step(u: float) -> tuple[float, float, float]:
 def azimuth_of(wo: Vec) -> Vec:
     """(cos phi, sin phi, sin theta) of a direction; phi = 0 at the pole."""
     s = math.sqrt(wo[0] * wo[0] + wo[1] * wo[1])
-    inverse = 1.0 / s if s > 0.0 else 0.0
-    return (wo[0] * inverse if s > 0.0 else 1.0), wo[1] * inverse, s
+    away = s > 1e-150  # the squares of less have lost their digits
+    inverse = 1.0 / s if away else 0.0
+    return (wo[0] * inverse if away else 1.0), wo[1] * inverse, s
 
 
 def farthest(q: float, mu: float) -> tuple[float, float]:
@@ -81,10 +82,15 @@ def half_vector(wo: Vec, u1: float, u2: float, width: float) -> tuple[float, flo
     mu = wo[2]
     c, s = turn(u2)
     stretch = 1.0 / math.sqrt(math.sqrt(mu))
-    root = 1.0 / math.sqrt(stretch * stretch + (1.0 - stretch * stretch) * c * c)
+    square = stretch * stretch + (1.0 - stretch * stretch) * c * c
+    side = math.sqrt(square)
+    # the end of t, with numerator and denominator times `side`: both roots at the same time
+    m = so * abs(c) + math.sqrt(so * so * c * c + mu * mu * square)
+    end = (m, mu * side) if c >= 0.0 else (mu * side, m)
+    t, dt, cos2, above = radial(u1, end, 2.0 * width)
+    root = 1.0 / side
     c, s = c * root, stretch * s * root
     q = so * c
-    t, dt, cos2, above = radial(u1, farthest(q, mu), 2.0 * width)
     facing = q * t + mu  # h.v/h.n
     k = 2.0 * facing * cos2
     x, y = k * t * c - so, k * t * s

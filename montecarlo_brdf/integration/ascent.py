@@ -1,0 +1,130 @@
+"""The samples of an adaptive estimate, look after look: small ones within one kernel call, large
+ones cut and spread over threads like any other work."""
+from __future__ import annotations
+
+import ctypes
+import functools
+import time
+
+from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.integration import looks, work
+from montecarlo_brdf.integration.estimators import Plan, compiled
+from montecarlo_brdf.integration.kernel import STATE
+from montecarlo_brdf.integration.looks import AT, NEXT, SIZES, STOP, TABLE, TAKEN
+from montecarlo_brdf.integration.methods import Setting
+from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
+from montecarlo_brdf.sampling.streams import stream
+from montecarlo_brdf.vectors import Vec
+
+FIRST = 64  # samples of a replicate at the first look,
+FINE, FIRST_FINE = 1e-5, 256  # and where the target is finer than that: less has no chance
+LATTICES, LATTICES_FINE = (64, 144, 448, 1024), (144, 448, 1024)  # of lattices; then powers of 2
+FALL, LATTICES_FALL = 32.0, 1000.0  # the most that an error was seen to fall between sizes
+MOST = {"lattice": 20, "sobol": 20, "stratified": 20, "independent": 22}  # log2, the last look
+#: A sampler's weight may be 0 once in a million draws (a rejected direction) and 1 otherwise: until
+#: one was seen all replicates agree. An event of probability `target` stays unseen in
+#: SEEN/target samples with chance e^-SEEN. A probed chart has no such events.
+SEEN = 10.0
+UNKNOWN = 4096  # samples of a first call, whose pace nobody knows
+
+
+class Ascent:
+    """One stream of a case. `hopeless`: samples that a probed value may demand at most."""
+
+    def __init__(self, setting: Setting, wo: Vec, plan: Plan, hopeless: float) -> None:
+        self._setting, self._many = setting, plan.replicates
+        target = plan.target_error or 0.0
+        fewest = 0.0 if setting.probed or not target else SEEN / (target * plan.replicates)
+        reals = (*wo, setting.width, *setting.numbers)
+        template, self.sizes, steps = _table(
+            setting.method.points, plan.replicates, target <= FINE, fewest, len(reals)
+        )
+        self._key = stream(plan.seed, setting.identity, *wo)
+        self._ints = (ctypes.c_int64 * (len(template) // 8)).from_buffer_copy(template)
+        self._ints[0] = self._key  # ctypes wraps its sign
+        fall = LATTICES_FALL if setting.method.points == "lattice" else FALL
+        reals = (*reals, target, fewest, hopeless, fall, *steps)
+        self._reals = (ctypes.c_double * len(reals))(*reals)
+        self._end = STATE * setting.means.channels * plan.replicates
+        self._out = (ctypes.c_double * (self._end + setting.means.channels + 1 + len(steps)))()
+        place = ctypes.addressof
+        self._at = place(self._ints), place(self._reals), place(self._out)
+        self._target, self._fewest, self._fall = target, fewest, fall
+        self.states: list[float] = []
+        self.errors: list[float] = []  # largest relative half-width at each look
+        self.need = 0.0  # samples of a replicate that the probed values demand
+        self.size = 0  # samples of a replicate at the last look
+
+    def affordable(self) -> int:
+        """How many of the sizes one call may go through without lasting too long."""
+        pace = getattr(self._setting.entry, "pace", None)
+        most = min(work.CHUNK, 0.5 * work.LONGEST / pace) if pace else UNKNOWN
+        return sum(size * self._many <= most for size in self.sizes)
+
+    def climb(self, plan: Plan) -> None:
+        """At least one more look."""
+        stop = self.affordable()
+        if stop > self._ints[NEXT]:
+            self.look(stop)
+        else:
+            self._look_far(plan)
+
+    def look(self, stop: int) -> None:
+        """Look at sizes below the index `stop` until the target is met; at least at the probes."""
+        ints, before = self._ints, self._ints[TAKEN]
+        ints[STOP] = stop
+        began = time.perf_counter()
+        if self._setting.entry(*self._at) != 0:
+            raise ModelError("the model raised an exception while it was sampled")
+        if before == 0 and ints[TAKEN]:
+            taken = 2 * ints[4] * self._many  # all looks together, or a little less
+            pace = (time.perf_counter() - began) / taken
+            self._setting.entry.pace = min(pace, getattr(self._setting.entry, "pace", pace))
+        out, told = self._out[:], self._end + self._setting.means.channels
+        self.need, self.size = out[told], ints[4]
+        self.errors += out[told + 1 + before : told + 1 + ints[TAKEN]]
+        self.states = out[: self._end]
+
+    def _look_far(self, plan: Plan) -> None:
+        """One look at more samples than a single call should take."""
+        ints, width, points = self._ints, self._setting.means.channels, self._setting.means.points
+        self.look(ints[NEXT])
+        self.size = self.sizes[ints[NEXT]]
+        shape = SHAPES[points](self.size) if points in SHAPES else NONE
+        entry = compiled(self._setting.model, self._setting.means)
+        job = work.Job(entry, self._reals[:], width, self._key, self._many, self.size, shape)
+        rows = zip(*work.run(job, plan.threads, None, plan.sums), strict=True)
+        self.states = [x for row in rows for moments in row for x in moments]
+        factor = self._reals[ints[AT] + looks.FACTORS + ints[TAKEN]]
+        ints[TAKEN] += 1
+        self.errors.append(looks.widest(self.states, width, self._many, factor))
+        seen = self.states + self._out[self._end : self._end + width]
+        self.need = looks.needed(seen, width, self._many, self._end)
+        if not self.reached():
+            left = ints[SIZES] - ints[NEXT]
+            ints[NEXT] += looks.stride(self.errors[-1], self._target * self._fall, left)
+
+    def reached(self) -> bool:
+        """Whether the last look is good enough."""
+        return self.errors[-1] <= self._target and max(self.need, self._fewest) <= self.size
+
+    def ended(self) -> bool:
+        """Whether the last look was at the largest size."""
+        return bool(self._ints[NEXT] >= self._ints[SIZES])
+
+
+@functools.cache
+def _table(
+    points: str, many: int, fine: bool, fewest: float, at: int
+) -> tuple[bytes, tuple[int, ...], tuple[float, ...]]:
+    """What `looks.climb` gets as ints, the sizes of its looks, and the factors of their widths."""
+    last = min(1 << MOST[points], SETS[points][0])
+    first = FIRST_FINE if fine else FIRST
+    start = (LATTICES_FINE if fine else LATTICES) if points == "lattice" else (first,)
+    sizes = (*start, *(1 << k for k in range(start[-1].bit_length(), last.bit_length())))
+    sizes = tuple(size for size in sizes if size >= fewest) or (last,)
+    ints = [0, 0, many, 0, 0, *NONE, at, 0, 0, 0, len(sizes)]
+    assert len(ints) == TABLE
+    for size in sizes:
+        ints += (size, *(SHAPES[points](size) if points in SHAPES else NONE))
+    return bytes((ctypes.c_uint64 * len(ints))(*ints)), sizes, looks.factors(many, len(sizes))
