@@ -55,7 +55,8 @@ def chooses(case: Case, theta: float) -> bool:
 
 
 def faults(case: Case, theta: float) -> Exact:
-    """How many draws are not finite, not of unit length, or have no density.
+    """How many draws are not finite, not of unit length, or have no density; all of them if none is
+    above the horizon.
 
     Numbers exactly at an end of [0, 1) may give a direction where pdf and f are both 0, as u = 0
     does for u^(1/(n + 1)): no light, with probability 0. It is told, not refuted.
@@ -84,6 +85,8 @@ def _kinds(case: Case, wo: Any, u: Any) -> tuple[dict[str, Any], Any]:
         "not finite": ~finite,
         "not of unit length": above & (np.abs(length - 1.0) > UNIT_TOLERANCE),
     }
+    if not above.any():
+        kinds["below the horizon, which is all of them"] = finite
     if returns_weight(case.model):
         kinds["with a weight that is not finite"] = above & ~np.isfinite(weights)
     if case.model.pdf is not None:
