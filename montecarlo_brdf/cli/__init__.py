@@ -79,9 +79,10 @@ def main() -> NoReturn:
 
 
 def _leave_at_once(code: int) -> None:
-    """End a process in which a model still runs that nobody waits for."""
+    """End a process in which a model still runs that nobody waits for, or that was interrupted:
+    taking down a compiler takes a second or two."""
     supervision = sys.modules.get("montecarlo_brdf.verify.supervision")
-    if supervision and supervision.still_running():
+    if code == INTERRUPTED or (supervision and supervision.still_running()):
         with contextlib.suppress(OSError):
             sys.stdout.flush()
         sys.stderr.flush()

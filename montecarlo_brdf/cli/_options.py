@@ -140,6 +140,12 @@ def seed_of(text: str) -> int:
     return number
 
 
+def import_format(form: str) -> None:
+    """Have at hand what takes longest to import of what `deliver` needs."""
+    if form == "text":
+        from montecarlo_brdf.report import text  # noqa: F401
+
+
 def deliver(
     report: Any, form: str, export: Path | None, inconclusive: str | None, verbose: bool
 ) -> int:

@@ -1,6 +1,7 @@
 """What `run` does once its options are known."""
 from __future__ import annotations
 
+import gc
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -36,7 +37,8 @@ def run_all(options: dict[str, Any], given: Sequence[str]) -> int:
     given: the options that were given, not left at their defaults.
     """
     _options.check_outputs(options["form"], options["export_json"])
-    versions()  # imports what a report needs while no thread imports anything
+    versions()  # imports what a report needs while no thread imports anything, and not after Ctrl-C
+    _options.import_format(options["form"])
     earlier = read_report(options["baseline"]) if options["baseline"] else None
     seed = _options.seed_of(options["seed"])
     if options["spec"]:
@@ -47,6 +49,8 @@ def run_all(options: dict[str, Any], given: Sequence[str]) -> int:
         options["max_time"] = options["max_time"] or project.max_time
         options["inconclusive"] = options["inconclusive"] or project.inconclusive
     report = gather(jobs, options)
+    if report.measured["interrupted"]:
+        gc.disable()  # with a compiler in memory a collection takes long, and the end is near
     code = _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
     )
