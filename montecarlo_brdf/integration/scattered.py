@@ -24,26 +24,27 @@ SKY: Any = None
 
 NODE = 4  # numbers of a node: u[0], u[1], u[4] and its weight
 PLACE = 4  # numbers of a place before its parameters: a direction and what the integrand needs
-PAIR = 6  # numbers of a pair before its parameters: wo and wi
+CHUNK = 1024  # nodes of a call
 FINEST = 1e-3  # slope of the half vector from which on `albedo_slopes` resolves a lobe
 
 
 def means(ints: Any, reals: Any, out: Any) -> None:
-    """out[j] = sum_i w_i INTEGRAND(u_i, place_j, p_j); ints = (places, nodes, first, stride)."""
+    """out[j] += sum_i w_i INTEGRAND(u_i, place_j, p_j); ints = (places, nodes, place of the first
+    place, numbers of a place, place of the first node)."""
     for j in range(ints[0]):
         place = ROW(reals, ints[2] + j * ints[3])
         p = PARAMETERS(place)[0]
         query = (place[0], place[1], place[2], place[3])
         total = 0.0
         for i in range(ints[1]):
-            at = 4 * i
+            at = ints[4] + 4 * i
             u = (reals[at], reals[at + 1], 0.0, 0.0, reals[at + 2])
             total += reals[at + 3] * INTEGRAND(u, query, p)
-        out[j] = total
+        out[j] += total
 
 
 def pairs(ints: Any, reals: Any, out: Any) -> None:
-    """out[j] = FUNCTION(wo_j, wi_j, p_j); ints = (pairs, 0, first, stride)."""
+    """out[j] = FUNCTION(wo_j, wi_j, p_j); ints = (pairs, 1, place of the first, numbers of one)."""
     for j in range(ints[0]):
         at = ROW(reals, ints[2] + j * ints[3])
         p = PARAMETERS(at)[0]
@@ -201,15 +202,17 @@ def pair_values(model: Model, wo: Any, wi: Any, sets: Rows) -> Any:
 def _run(model: Model, made_of: tuple[Any, Any, Any], nodes: Any, places: Any, sets: Rows) -> Any:
     import numpy as np
 
-    first = places.shape[1]
-    layout = parameters.following(sets.shape, first)
+    layout = parameters.following(sets.shape, places.shape[1])
     kernel = estimators.compiled(model.name, Listing(*made_of, layout))
     table = np.concatenate([places, sets.numbers], axis=1)
     stride = table.shape[1]
     data = np.ascontiguousarray(np.concatenate([nodes.ravel(), table.ravel()]), dtype=np.float64)
-    out = np.full(len(places), np.nan)
-    for start, count in paced.pieces(kernel, len(places)):
-        ints = np.array([count, len(nodes), nodes.size + start * stride, stride], dtype=np.int64)
-        if kernel(ints.ctypes.data, data.ctypes.data, out[start:].ctypes.data) != 0:
-            raise ModelError(f"model {model.name} raised an exception while evaluated")
+    out = np.zeros(len(places))
+    for node in range(0, max(1, len(nodes)), CHUNK):
+        many = max(1, min(CHUNK, len(nodes) - node))
+        for start, count in paced.pieces(kernel, len(places), many):
+            first = nodes.size + start * stride
+            ints = np.array([count, many, first, stride, NODE * node], dtype=np.int64)
+            if kernel(ints.ctypes.data, data.ctypes.data, out[start:].ctypes.data) != 0:
+                raise ModelError(f"model {model.name} raised an exception while evaluated")
     return out
