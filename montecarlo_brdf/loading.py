@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import os
 import sys
 import traceback
 import types
@@ -31,7 +32,7 @@ def load(spec: str, **picks: str) -> Model:
     Raises UserError for an unknown name or a missing file, ModelError if the file does not load.
     """
     spec = str(spec)
-    mixed = None if Path(spec).exists() else mixture.parts(spec)
+    mixed = None if os.path.exists(spec) else mixture.parts(spec)
     if mixed:
         model = mixture.mixture([(weight, load(name)) for weight, name in mixed], spec)
         return model.variant(**picks) if picks else model
@@ -81,7 +82,7 @@ def _check_declared(spec: str, namespace: Mapping[str, Any]) -> None:
 
 def _from_file(path: Path) -> types.ModuleType:
     """Run a user's file as a module; its folder is importable while and after it runs."""
-    if not path.is_file():
+    if not os.path.isfile(path):  # also False for a name that no file can have
         raise UserError(f"no model file {path}")
     folder = str(path.resolve().parent)
     if folder not in sys.path:

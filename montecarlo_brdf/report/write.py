@@ -12,11 +12,15 @@ from montecarlo_brdf.errors import OutputError
 def check_writable(path: Path) -> None:
     """Raise OutputError if a file could not be written at `path`."""
     folder = path.resolve().parent
-    if path.is_dir():
+    if os.path.isdir(path):
         raise OutputError(f"cannot write {path}: it is a directory")
-    if not folder.is_dir():
+    if not os.path.isdir(folder):
         raise OutputError(f"cannot write {path}: there is no directory {folder}")
-    if not os.access(path if path.exists() else folder, os.W_OK):
+    try:
+        allowed = os.access(path if path.exists() else folder, os.W_OK)
+    except OSError as error:  # a name that no file can have
+        raise OutputError(f"cannot write {path}: {error.strerror or error}") from error
+    if not allowed:
         raise OutputError(f"cannot write {path}: permission denied")
 
 

@@ -32,7 +32,7 @@ def read_image(path: Path) -> Texels:
     """An image file as checked radiance."""
     import numpy as np
 
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise UserError(f"no image file {path}")
     kind = path.suffix.lower().lstrip(".")
     if kind not in _READERS:

@@ -83,3 +83,23 @@ def test_what_long_runs_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     assert "nested too deeply" in capsys.readouterr().err
     assert run([*baseline, str(tmp_path / "bare.json")]) == 2
     assert "results are damaged" in capsys.readouterr().err
+
+
+LONG_NAMES = [
+    "show {}",
+    "show {}.py",
+    "plot r.json -o {}.svg",
+    "furnace --model lambert --resume {}",
+    "radiance --model lambert --environment image:{}.png",
+]
+
+
+@pytest.mark.parametrize("arguments", LONG_NAMES)
+def test_names_that_no_file_can_have(capsys: pytest.CaptureFixture[str], arguments: str) -> None:
+    """They were looked for, and the system's complaint was taken for one about stdout."""
+    assert run(arguments.format("a" * 300).split()) in (2, 5)
+    assert "stdout" not in capsys.readouterr().err
+
+
+def test_mixtures_longer_than_a_file_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["show", " + ".join(["0.01 lambert"] * 40)]) == 0
