@@ -30,15 +30,29 @@ def _maps(result: dict[str, Any]) -> list[tuple[str, list[Any]]]:
 
 
 def _one(figure: Any, ax: Any, title: str, points: list[Any]) -> None:
-    # a direction lower than any angle counts as 90 degrees; shown from the horizon, on a log axis
-    left = [max(90.0 - t, 1e-7) for t, _, _ in points]
-    errors = [FLOOR if e is None else min(max(e, FLOOR), 1.0) for _, _, e in points]
-    drawn = ax.scatter(left, [v for _, v, _ in points], c=errors, norm="log", vmin=FLOOR, vmax=1.0,
-                       cmap="viridis", marker="s", s=18)  # fmt: skip
+    cells = _worst(points)
+    values = [v for _, v in cells]
+    positive = [v for v in values if v > 0.0] or [1.0]
+    drawn = ax.scatter([x for x, _ in cells], values, c=list(cells.values()), norm="log",
+                       vmin=FLOOR, vmax=1.0, cmap="viridis", marker="s", s=18)  # fmt: skip
     ax.set_xscale("log")
-    ax.set_yscale("symlog", linthresh=1e-4)
+    ax.set_yscale("symlog", linthresh=min(positive))  # linear down to a roughness of 0
+    ax.set_ylim(min(values) - 0.2 * min(positive), 2.0 * max(positive))
     ax.invert_xaxis()
     ax.set_title(title, fontsize=9)
     ax.set_xlabel("90 - theta_o (degrees)")
     ax.set_ylabel("roughness or exponent")
     figure.colorbar(drawn, ax=ax, label="worst relative error")
+
+
+def _worst(points: list[Any]) -> dict[tuple[float, float], float]:
+    """(degrees above the horizon, roughness) -> worst error; what is infinite counts as 1.
+
+    A direction lower than any angle counts as 90 degrees; shown from the horizon, on a log axis.
+    """
+    cells: dict[tuple[float, float], float] = {}
+    for theta, value, error in points:
+        place = max(90.0 - theta, 1e-7), value
+        shown = 1.0 if error is None else min(max(error, FLOOR), 1.0)
+        cells[place] = max(shown, cells.get(place, FLOOR))
+    return cells

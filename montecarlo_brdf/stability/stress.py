@@ -17,8 +17,8 @@ from montecarlo_brdf.stability.ladder import Rung, rounded
 
 #: Points per parameter set that are compared with 50 digits too: the worst, and every so many.
 EXACT_WORST, EXACT_EVERY = 4, 499
-#: Points per parameter set of a type whose only truth is 50 digits.
-MOST_EXACT = 60
+#: Points per parameter set of a type whose only truth is 50 digits, and with `quick`.
+MOST_EXACT, FEW_EXACT = 60, 20
 CLIMBS, ROUNDS = 6, 12
 KINDS = ("nan", "inf", "negative", "flushed")
 
@@ -77,7 +77,8 @@ def _one_set(
     """Evaluate the designed set of one parameter set; its worst points, to climb from."""
     points = designed.directions(narrow.arithmetic, designed.width_of(narrow.model, p), quick)
     if wide.arithmetic is exact():
-        points = Points(*(c[:: -(-len(points.wi) // MOST_EXACT)] for c in points))
+        most = FEW_EXACT if quick else MOST_EXACT
+        points = Points(*(c[:: -(-len(points.wi) // most)] for c in points))
     found = errors(narrow, wide, points, q)
     result.points += len(found.own)
     _count(result, points, q, found)

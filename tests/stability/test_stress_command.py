@@ -56,3 +56,10 @@ def test_comparison_report_and_picture(cli: Cli, tmp_path: Path) -> None:
 def test_mistakes(cli: Cli, arguments: list[str], said: str) -> None:
     done = cli("stress", *arguments, "--quick")
     assert done.code in (2, 5) and said in done.err
+
+
+def test_infinite_errors_are_the_worst_of_a_heat_map() -> None:
+    from montecarlo_brdf.report.heat import _worst
+
+    points = [(30.0, 0.1, None), (30.0, 0.1, 1e-9), (89.0, 0.1, 0.0), (89.0, 0.2, 7.0)]
+    assert _worst(points) == {(60.0, 0.1): 1.0, (1.0, 0.1): 1e-17, (1.0, 0.2): 1.0}
