@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -67,8 +68,10 @@ def searched(model: Model, fixed: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def search_range(model: Model, name: str) -> tuple[float, float] | None:
-    """The range of a parameter over the sets the model is verified for, else its whole domain."""
+    """The range of a parameter over the sets the model is verified for, else its whole domain if
+    that has ends."""
     if model.verified:
         values = [float(getattr(p, name)) for p in model.verified if hasattr(p, name)]
         return (min(values), max(values)) if values and min(values) < max(values) else None
-    return model.domain.get(name)
+    ends = model.domain.get(name)
+    return ends if ends and all(map(math.isfinite, ends)) else None
