@@ -1,7 +1,7 @@
 """Energy: is ever more reflected than received?
 
 R(wi), all that leaves for light from wi, and A(wo) are searched for their worst over angles up to
-89.9999 degrees and over the parameters' ranges (checks.search). The worst is estimated again on a
+89.9 degrees and over the parameters' ranges (checks.search). The worst is estimated again on a
 fresh stream and judged against 1. It cannot see: a peak narrower than the search.
 """
 from __future__ import annotations
