@@ -1,10 +1,10 @@
 """The worst place of a quantity: over angles, azimuths where they matter, and free parameters.
 
-Thousands of places spread over all of them together, each with few nodes;
-the best again with more nodes; every coordinate scanned finely along its own line through the best,
-so that a bump of 1 % of a range is met once the others are where it shows; then steps that climb
-from some of the best, and many nodes to tell which of them is the worst. All places use the same
-nodes: differences between them are not noise.
+Thousands of places spread over all of them together, each with few nodes; the best again with more
+nodes; every coordinate scanned finely along its own line through the best, so that a bump of 1 % of
+a range is met once the others are where it shows; then steps that climb from some of the best, and
+many nodes to tell which of them is the worst. All places use the same nodes: differences between
+them are not noise.
 It cannot see: a bump that holds less than about one in ten thousand of the places.
 """
 from __future__ import annotations
@@ -21,7 +21,7 @@ from montecarlo_brdf.checks.directions import MIRROR, vectors
 from montecarlo_brdf.checks.lobe_coordinates import grid
 from montecarlo_brdf.integration import scattered
 from montecarlo_brdf.integration.estimators import samplers_of
-from montecarlo_brdf.sampling.spread import spread
+from montecarlo_brdf.sampling.spread import net, spread
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.vectors import Vec, from_degrees
 
@@ -135,7 +135,7 @@ def _side(space: Space, w: Array, sets: scattered.Rows) -> Array:
 def _nodes(space: Space, quantity: str, stage: str) -> Array:
     draws, cells = NODES[stage]
     if samplers_of(space.case.model, quantity)[-1] == "own":
-        u = spread(draws, 3, stream(space.case.seed, "search"))
+        u = net(draws, stream(space.case.seed, "search"))
         return np.concatenate([u, np.full((draws, 1), 1.0 / draws)], axis=1)
     x, b, weight = grid(*cells)
     return np.stack([x, b, np.zeros(len(x)), weight], axis=1)
