@@ -10,7 +10,8 @@ import pytest
 import montecarlo_brdf as mb
 from montecarlo_brdf import references
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.integration import adaptive
+from montecarlo_brdf.integration import adaptive, methods
+from montecarlo_brdf.integration.ascent import Ascent
 from montecarlo_brdf.vectors import from_degrees
 
 CASES = [
@@ -124,3 +125,19 @@ def test_results_do_not_depend_on_threads():
         mb.directional_albedo(model, p, 60.0, target_error=1e-12, threads=t) for t in (1, 2)
     )
     assert one == two and one.samples > 1 << 17
+
+
+def test_results_do_not_depend_on_how_often_a_kernel_is_called():
+    """All near looks in one call, or one look a call: the same bytes."""
+    model = mb.load("ggx")
+    p = model.parameters(alpha=0.05)
+    (method, *_) = methods.methods(model)
+    setting = methods.prepare(model, p, type(p), method)
+    at_once, singly = (
+        Ascent(setting, from_degrees(80.0), adaptive.Plan(target_error=1e-7), 1e9) for _ in range(2)
+    )
+    at_once.look(3)
+    for stop in (1, 2, 3):
+        singly.look(stop)
+    assert at_once.errors == singly.errors and at_once.states == singly.states
+    assert len(at_once.errors) == 3 and at_once.size == singly.size == 1024

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import functools
-import time
 
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import looks, work
@@ -25,7 +24,9 @@ MOST = {"lattice": 20, "sobol": 20, "stratified": 20, "independent": 22}  # log2
 #: one was seen all replicates agree. An event of probability `target` stays unseen in
 #: SEEN/target samples with chance e^-SEEN. A probed chart has no such events.
 SEEN = 10.0
-UNKNOWN = 4096  # samples of a first call, whose pace nobody knows
+#: The most samples that are looked at within one call. Which looks these are must not depend on how
+#: fast they are: the two ways differ in the last bits.
+NEAR = 1 << 15
 
 
 class Ascent:
@@ -36,7 +37,7 @@ class Ascent:
         target = plan.target_error or 0.0
         fewest = 0.0 if setting.probed or not target else SEEN / (target * plan.replicates)
         reals = (*wo, setting.width, *setting.numbers)
-        template, self.sizes, steps = _table(
+        template, self.sizes, self._near, steps = _table(
             setting.method.points, plan.replicates, target <= FINE, fewest, len(reals)
         )
         self._key = stream(plan.seed, setting.identity, *wo)
@@ -55,17 +56,10 @@ class Ascent:
         self.need = 0.0  # samples of a replicate that the probed values demand
         self.size = 0  # samples of a replicate at the last look
 
-    def affordable(self) -> int:
-        """How many of the sizes one call may go through without lasting too long."""
-        pace = getattr(self._setting.entry, "pace", None)
-        most = min(work.CHUNK, 0.5 * work.LONGEST / pace) if pace else UNKNOWN
-        return sum(size * self._many <= most for size in self.sizes)
-
     def climb(self, plan: Plan) -> None:
         """At least one more look."""
-        stop = self.affordable()
-        if stop > self._ints[NEXT]:
-            self.look(stop)
+        if self._near > self._ints[NEXT]:
+            self.look(self._near)
         else:
             self._look_far(plan)
 
@@ -73,13 +67,8 @@ class Ascent:
         """Look at sizes below the index `stop` until the target is met; at least at the probes."""
         ints, before = self._ints, self._ints[TAKEN]
         ints[STOP] = stop
-        began = time.perf_counter()
         if self._setting.entry(*self._at) != 0:
             raise ModelError("the model raised an exception while it was sampled")
-        if before == 0 and ints[TAKEN]:
-            taken = 2 * ints[4] * self._many  # all looks together, or a little less
-            pace = (time.perf_counter() - began) / taken
-            self._setting.entry.pace = min(pace, getattr(self._setting.entry, "pace", pace))
         out, told = self._out[:], self._end + self._setting.means.channels
         self.need, self.size = out[told], ints[4]
         self.errors += out[told + 1 + before : told + 1 + ints[TAKEN]]
@@ -116,8 +105,9 @@ class Ascent:
 @functools.cache
 def _table(
     points: str, many: int, fine: bool, fewest: float, at: int
-) -> tuple[bytes, tuple[int, ...], tuple[float, ...]]:
-    """What `looks.climb` gets as ints, the sizes of its looks, and the factors of their widths."""
+) -> tuple[bytes, tuple[int, ...], int, tuple[float, ...]]:
+    """What `looks.climb` gets as ints, the sizes of all looks, how many of them are near, and the
+    factors of their widths."""
     last = min(1 << MOST[points], SETS[points][0])
     first = FIRST_FINE if fine else FIRST
     start = (LATTICES_FINE if fine else LATTICES) if points == "lattice" else (first,)
@@ -127,4 +117,6 @@ def _table(
     assert len(ints) == TABLE
     for size in sizes:
         ints += (size, *(SHAPES[points](size) if points in SHAPES else NONE))
-    return bytes((ctypes.c_uint64 * len(ints))(*ints)), sizes, looks.factors(many, len(sizes))
+    near = sum(size * many <= NEAR for size in sizes)
+    packed = bytes((ctypes.c_uint64 * len(ints))(*ints))
+    return packed, sizes, near, looks.factors(many, len(sizes))
