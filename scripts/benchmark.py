@@ -1,29 +1,60 @@
-"""Run the whole benchmark on one core and record it in scripts/results.
+"""Run the benchmark on one core and record it in scripts/results, a workload at a time.
 
     pip install 'montecarlo-brdf[bench]'
-    python scripts/benchmark.py [ROUNDS]
+    python scripts/benchmark.py [ROUNDS] [W3,W4,rates]
+
+All methods of a workload are timed in turn within one run; what is named replaces what was
+recorded, so that a shared machine need not be quiet for as long as everything takes.
 """
 from __future__ import annotations
 
+import json
 import os
 import sys
 from pathlib import Path
+from typing import Any
 
-from montecarlo_brdf.cli import execute as run
+from montecarlo_brdf.bench import measure, throughput
+from montecarlo_brdf.bench.workloads import WORKLOADS
+from montecarlo_brdf.report.bench_markdown import markdown
+from montecarlo_brdf.report.bench_plots import bench_figure
+from montecarlo_brdf.report.findings import versions
+from montecarlo_brdf.report.plots import save
 
 RESULTS = Path(__file__).parent / "results"
+RATES = "rates"  # samples per second and growth of cost
 
 
-def main() -> int:
-    """Pin to one core, then measure."""
-    rounds = sys.argv[1] if len(sys.argv) > 1 else "11"
+def main() -> None:
+    """Measure and record after each workload."""
+    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 11
+    everything = [*(w.name for w in WORKLOADS), RATES]
+    chosen = sys.argv[2].split(",") if len(sys.argv) > 2 else everything
+    recorded = RESULTS / "bench.json"
+    data: dict[str, Any] = json.loads(recorded.read_text()) if recorded.exists() else {}
+    data |= {"schema": 1, "command": "bench", "machine": throughput.processor(), "rounds": rounds}
+    data["versions"] = ", ".join(f"{k} {v}" for k, v in versions().items())
+    for name in chosen:
+        if name == RATES:
+            data["growth"] = throughput.growth(rounds)  # before pinning: it measures threads
+            pinned()
+            data["rates"] = throughput.rates(rounds)
+        else:
+            pinned()
+            (found,) = measure.bench(list(measure.METHODS), [name], rounds)
+            others = [r for r in data.get("results", []) if r["workload"] != name]
+            data["results"] = sorted([*others, found], key=lambda r: r["workload"])
+        recorded.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+        print(name, "recorded", flush=True)
+    (RESULTS / "bench.md").write_text(markdown(data), encoding="utf-8")
+    save(bench_figure(data), RESULTS / "bench.png")
+
+
+def pinned() -> None:
+    """On one core from now on."""
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
-    RESULTS.mkdir(exist_ok=True)
-    files = {"--export-json": "bench.json", "--markdown": "bench.md", "--plot": "bench.png"}
-    outputs = [str(part) for k, name in files.items() for part in (k, RESULTS / name)]
-    return run(["bench", "--rounds", rounds, "--rates", *outputs])
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
