@@ -93,8 +93,31 @@ def page(found: dict[str, Any]) -> str:
         for key, one in found.items()
         if one["worst"] > one["tolerance"]
     ]
-    exceptions = "\n".join(larger) or "None."
-    return f"{HEAD}{chr(10).join(rows)}\n\n## Exceptions\n\n{exceptions}\n\n{estimators()}"
+    table, exceptions = "\n".join(rows), "\n".join(larger) or "None."
+    parts = (f"{HEAD}{table}\n", f"## Exceptions\n\n{exceptions}\n", estimators(), fuzzing())
+    return "\n".join(parts)
+
+
+FUZZING = """## Fuzzing
+
+By scripts/fuzz.py (command lines, and files that a command then reads) and scripts/fuzz_readers.py
+(coverage-guided, the readers alone). What the earlier run found is cured in the later ones, with
+tests in tests/robustness. scripts/results/fuzz_models.txt has 10^7 evaluations of every model.
+
+| run | commit | minutes | cases | failures |
+|---|---|---|---|---|
+"""
+
+
+def fuzzing() -> str:
+    """What the recorded runs did."""
+    rows = []
+    for path in sorted(RESULTS.parent.glob("fuzz_*.json")):
+        one = json.loads(path.read_text())
+        counts = [sum(c.values()) if isinstance(c, dict) else c[0] for c in one["cases"].values()]
+        rows.append(f"| {path.stem} | {one['commit']} | {one['seconds'] / 60.0:.0f} | "
+                    f"{sum(counts)} | {len(one['failures'])} |")  # fmt: skip
+    return f"{FUZZING}{chr(10).join(rows)}\n"
 
 
 ESTIMATORS = """## Estimators

@@ -65,6 +65,8 @@ class Batch:
             if other.arithmetic is not self.arithmetic:
                 raise Widened(f"{self.arithmetic} meets {other.arithmetic}")
             return other.values
+        if isinstance(other, np.ndarray) and other.dtype == object != self.arithmetic.dtype:
+            raise Widened("it puts numbers into an array, where no precision can be followed")
         if isinstance(other, np.ndarray | np.floating) and other.dtype != self.arithmetic.dtype:
             raise Widened(f"{self.arithmetic} meets an array of {other.dtype}")
         if isinstance(other, Whole):
