@@ -34,18 +34,18 @@ def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
     wo, wi = unit(points.wo, truth_type), unit(points.wi, truth_type)
     truth = wide.f(wo, wi, q)
     raw = wide.f(truth_type.array(points.wo), truth_type.array(points.wi), q)
-    conditioning = _conditioning(wide, wo, wi, q, truth, type_.eps)
-    conditioning = conditioning + _finite_distance(raw, truth, truth_type)
+    moved = _conditioning(wide, wo, wi, q, truth, type_.eps)
+    unscaled = _finite_distance(raw, truth, truth_type)
     with np.errstate(all="ignore"):
-        found = judged(value, truth, conditioning, points, type_, truth_type)
+        found = judged(value, truth, moved + unscaled, points, type_, truth_type)
         at = np.flatnonzero(found.own > type_.tolerance)
         if not len(at):
             return found
         # A step or a root of f may lie behind, within eps of both directions together: r.v = 0 of
         # Phong with n < 1. Where f is smooth, twice the move does twice as much.
         back = _conditioning(wide, wo[at], wi[at], q, truth[at], -2.0 * type_.eps)
-        conditioning[at] = np.where(back > 3 * conditioning[at], back, conditioning[at])
-        return judged(value, truth, conditioning, points, type_, truth_type)
+        moved[at] = np.where(back > 3 * moved[at], back, moved[at])
+        return judged(value, truth, moved + unscaled, points, type_, truth_type)
 
 
 def lower_than_any_angle(points: Any, type_: Arithmetic) -> Any:
