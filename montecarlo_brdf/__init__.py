@@ -30,12 +30,12 @@ _HOMES = {
     "reverse_albedo": "integration.estimators",
     "bihemispherical_albedo": "integration.estimators",
     "hemisphere_integral": "integration.estimators",
-    "furnace": "verify",
-    "identities": "verify",
+    "furnace": "verify.furnace",
+    "identities": "verify.identities",
     "read_scene": "scene.read",
     "radiance": "verify.radiance",
     "render": "scene.render",
-    "run": "verify",
+    "run": "verify.run",
     "stress": "verify.stress",
 }
 

@@ -58,11 +58,11 @@ class CheckItem(pytest.Item):
 
     def runtest(self) -> None:
         """Fail if a claim is refuted, or undecided unless the file says that this passes."""
-        from montecarlo_brdf import verify
         from montecarlo_brdf.testing import require
+        from montecarlo_brdf.verify.common import Deadline
 
         limit = self.project.max_time
-        report = self.job.run(deadline=verify.Deadline(limit) if limit else None)
+        report = self.job.run(deadline=Deadline(limit) if limit else None)
         if report.measured["interrupted"]:
             raise KeyboardInterrupt
         require(report, self.project.inconclusive or "fail")

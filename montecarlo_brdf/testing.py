@@ -20,11 +20,13 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf import loading, verify
+from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.model import Model, build
 from montecarlo_brdf.report.findings import Report
 from montecarlo_brdf.report.sentences import case, failures
+from montecarlo_brdf.verify.common import Deadline
+from montecarlo_brdf.verify.run import run
 
 __all__ = [
     "assert_checks",
@@ -96,8 +98,8 @@ def assert_checks(
     __tracebackhide__ = True
     model = as_model(brdf, p)
     given = parameters_of(model, p)
-    deadline = verify.Deadline(max_time)
-    report = verify.run(model, given, names=checks, deadline=deadline, **options)
+    deadline = Deadline(max_time)
+    report = run(model, given, names=checks, deadline=deadline, **options)
     if report.measured["interrupted"]:
         raise KeyboardInterrupt
     require(report, inconclusive, reproducible=_loadable(model))

@@ -23,7 +23,7 @@ import numpy as np
 from environment import describe
 
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.integration import build, integrands, kernel, native, parameters
+from montecarlo_brdf.integration import build, compiler, integrands, kernel, native, parameters
 from montecarlo_brdf.sampling import points
 from montecarlo_brdf.sampling.keys import NONE, replicate_key
 
@@ -106,12 +106,12 @@ def ours(point_set: str, channels: int = 1) -> Timed:
 def simplest() -> Timed:
     """`running_sum`, compiled as kernels are."""
     layout, numbers = layout_of(1)
-    special = build.specialiser()
+    special = build.specialiser(compiler.part)
     bound = {
         "INTEGRAND": special.bind(integrands.albedo_cosine, {"F": f}),
         "PARAMETERS": parameters.unpacker(layout),
     }
-    image = native.compile_function(special.clone(running_sum, bound))  # type: ignore[arg-type]
+    image = compiler.compile_function(special.clone(running_sum, bound))  # type: ignore[arg-type]
     return call(native.load(image), numbers, 1)
 
 

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 from environment import describe
 
 from montecarlo_brdf import load, loading
-from montecarlo_brdf.integration import build, integrands, kernel, native, parameters
+from montecarlo_brdf.integration import build, compiler, integrands, kernel, parameters
 from montecarlo_brdf.model import channels
 
 SAMPLES = 1 << 17
@@ -71,7 +71,7 @@ def caller(made: build.Recipe, numbers: list[float]) -> Callable[[], float]:
 
 def mix(made: build.Recipe) -> dict[str, int]:
     """Counts of instructions in the kernel's machine code."""
-    text = native.assembly(made.assemble())
+    text = compiler.assembly(made.assemble(build.specialiser(compiler.part)))
     return {
         "calls": len(re.findall(r"^\s+call", text, re.M)),
         "zmm": len(re.findall(r"^\s+v\w+pd.*zmm", text, re.M)),

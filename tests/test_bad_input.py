@@ -242,12 +242,12 @@ def test_a_file_that_is_no_report(content: str, cli: Command, tmp_path: Path) ->
 def test_a_crash_does_not_look_like_a_verdict(
     cli: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from montecarlo_brdf import verify
+    from montecarlo_brdf.verify import furnace
 
     def crash(*_: object, **__: object) -> None:
         raise ZeroDivisionError("a bug\nof ours")
 
-    monkeypatch.setattr(verify, "furnace", crash)
+    monkeypatch.setattr(furnace, "furnace", crash)
     monkeypatch.delenv("BRDF_CHECK_DEBUG", raising=False)
     outcome = cli("furnace", "--model", "lambert")
     assert outcome.code == 70 and outcome.err.count("\n") == 1
@@ -258,11 +258,11 @@ def test_a_crash_does_not_look_like_a_verdict(
 
 
 def test_an_interrupt_has_its_own_code(cli: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    from montecarlo_brdf import verify
+    from montecarlo_brdf.verify import furnace
 
     def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(verify, "furnace", interrupt)
+    monkeypatch.setattr(furnace, "furnace", interrupt)
     outcome = cli("furnace", "--model", "lambert")
     assert outcome.code == 130 and outcome.err.strip() == "interrupted"

@@ -12,7 +12,7 @@ import functools
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from montecarlo_brdf.checks import fitness, interiors, search, truth
+from montecarlo_brdf.checks import fitness, truth
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import (
     AGREEMENT_TOLERANCE,
@@ -95,6 +95,8 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
     """A where it is farthest from `known(cos_theta_o, p)`, of all angles and free parameters."""
     import numpy as np
 
+    from montecarlo_brdf.checks import search
+
     space = search.Space(case)
     value = search.albedo(space, "albedo")
 
@@ -123,6 +125,8 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
 
 def _elsewhere(case: Case, p: Any, known: Any) -> str:
     """Where it deviates most, and how much there should be."""
+    from montecarlo_brdf.checks import interiors
+
     changed = ", ".join(f"{k} = {v:.4g}" for k, v in interiors.changed(case, p).items())
     return f"not at the defaults, but with {changed}: {known(p):.6g} is expected there"
 

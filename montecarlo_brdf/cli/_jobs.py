@@ -7,12 +7,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from montecarlo_brdf import loading, verify
-from montecarlo_brdf.cli._values import number, numbers, parameter_sets
+from montecarlo_brdf import loading
+from montecarlo_brdf.cli._values import models_of, number, numbers, parameter_sets
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Report
 from montecarlo_brdf.report.sentences import called
 from montecarlo_brdf.verify.common import shown_parameters
+from montecarlo_brdf.verify.run import RUN_ANGLES, RUN_SAMPLES, run
 
 
 class Job(NamedTuple):
@@ -22,11 +23,11 @@ class Job(NamedTuple):
     p: list[Any] | None = None  # None: the defaults, and a search over the whole ranges
     fixed: tuple[str, ...] = ()  # parameters that the search leaves alone
     checks: tuple[str, ...] | None = None
-    theta_o_deg: Sequence[float] = verify.RUN_ANGLES
+    theta_o_deg: Sequence[float] = RUN_ANGLES
     phi_o_deg: float = 0.0
     against: Model | None = None
     points: str = "sobol"
-    samples: int = verify.RUN_SAMPLES
+    samples: int = RUN_SAMPLES
     seed: int = 0
     tolerance: float | None = None
 
@@ -44,7 +45,7 @@ class Job(NamedTuple):
         """The report; rest: threads, deadline, progress."""
         given = self._asdict()
         model, p, names = (given.pop(key) for key in ("model", "p", "checks"))
-        return verify.run(model, p, names=names, **given, **rest)
+        return run(model, p, names=names, **given, **rest)
 
 
 def from_options(options: dict[str, Any], seed: int) -> list[Job]:
@@ -57,7 +58,7 @@ def from_options(options: dict[str, Any], seed: int) -> list[Job]:
         "phi_o_deg": number(options["phi_o"], "phi-o"),
         "against": against,
         "points": options["points"],
-        "samples": verify.RUN_SAMPLES if options["samples"] is None else options["samples"],
+        "samples": RUN_SAMPLES if options["samples"] is None else options["samples"],
         "seed": seed,
         "tolerance": options["tolerance"],
     }
@@ -71,8 +72,3 @@ def with_parameters(model: Model, assignments: Sequence[str], shared: dict[str, 
         return Job(model, **shared)
     fixed = tuple(a.partition("=")[0].strip() for a in assignments)
     return Job(model, parameter_sets(model, assignments), fixed, **shared)
-
-
-def models_of(spec: str) -> list[str]:
-    """'all', or names separated by commas."""
-    return loading.names() if spec == "all" else [one.strip() for one in spec.split(",")]

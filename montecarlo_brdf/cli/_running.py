@@ -9,7 +9,6 @@ from typing import Any
 
 import click
 
-from montecarlo_brdf import verify
 from montecarlo_brdf.cli import _options, _project
 from montecarlo_brdf.cli._jobs import Job, from_options
 from montecarlo_brdf.cli._progress import progress
@@ -17,6 +16,7 @@ from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.report import baseline
 from montecarlo_brdf.report.findings import Finding, Report, Result, versions
 from montecarlo_brdf.report.read import read_report
+from montecarlo_brdf.verify.common import Deadline
 
 INTERRUPTED = 130
 #: options that stand above a project's file if they are given -> the field of Job
@@ -90,7 +90,7 @@ def gather(jobs: Sequence[Job], options: dict[str, Any]) -> Report:
     limit = options["max_time"]
     if limit is not None and not limit > 0.0:
         raise UserError(f"max-time must be a positive number of seconds, not {limit}")
-    deadline = verify.Deadline(math.inf if limit is None else limit)
+    deadline = Deadline(math.inf if limit is None else limit)
     reports: list[Report] = []
     try:
         with progress("run") as update:

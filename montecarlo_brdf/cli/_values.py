@@ -140,3 +140,10 @@ def _parameter(name: str, text: str) -> list[Any]:
     if ":" in text:
         return list(_range(text, name))
     return [tuple(text.split("/")) if "/" in text else text]
+
+
+def models_of(spec: str) -> list[str]:
+    """'all', or names separated by commas."""
+    from montecarlo_brdf.loading import names
+
+    return names() if spec == "all" else [one.strip() for one in spec.split(",")]

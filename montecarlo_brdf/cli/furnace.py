@@ -66,11 +66,12 @@ def command(**options: Any) -> int:
     Two claims per angle: the albedo A equals its reference within the tolerance, and A <= 1. Each
     is estimated by every sampler that can be trusted for the case.
     """
-    from montecarlo_brdf.report.plots import kind_of, plot
     from montecarlo_brdf.verify.resumption import partial_sums
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])
     if options["plot"]:
+        from montecarlo_brdf.report.plots import kind_of, plot
+
         kind_of(options["plot"])
     with partial_sums(options["resume"]) as sums:
         report = gather(options, sums)
@@ -83,8 +84,8 @@ def command(**options: Any) -> int:
 
 def gather(options: dict[str, Any], sums: Any = None) -> Report:
     """One report over all models asked for."""
-    from montecarlo_brdf.cli._jobs import models_of
     from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._values import models_of
     from montecarlo_brdf.report.findings import Report
 
     specs = models_of(options["spec"])
@@ -100,19 +101,21 @@ def gather(options: dict[str, Any], sums: Any = None) -> Report:
 
 
 def _one(spec: str, options: dict[str, Any], seed: int, update: Any, sums: Any) -> Report:
-    from montecarlo_brdf import loading, verify
+    from montecarlo_brdf import loading
     from montecarlo_brdf.cli._values import number, numbers, parameter_sets
+    from montecarlo_brdf.verify import furnace
+    from montecarlo_brdf.verify.common import SAMPLES
 
     model = loading.load(spec)
     names = options["sampler"].split(",")
-    return verify.furnace(
+    return furnace.furnace(
         model,
         parameter_sets(model, options["assignments"]),
         numbers(options["theta_o"], "theta-o"),
         phi_o_deg=number(options["phi_o"], "phi-o"),
         sampler="all" if names == ["all"] else names,
         points=options["points"],
-        samples=verify.SAMPLES if options["samples"] is None else options["samples"],
+        samples=SAMPLES if options["samples"] is None else options["samples"],
         seed=seed,
         threads=options["threads"],
         tolerance=options["tolerance"],

@@ -20,14 +20,15 @@ from montecarlo_brdf.cli import _options
 def command(**options: Any) -> int:
     """Solid angle, projected hemisphere, powers of the cosine, Lambert under a light that is not
     constant: each estimated, with its exact value and a verdict."""
-    from montecarlo_brdf import verify
     from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.verify.common import SAMPLES
+    from montecarlo_brdf.verify.identities import identities
 
     _options.check_outputs(options["form"], options["export_json"])
     with progress("identities") as update:
-        report = verify.identities(
+        report = identities(
             points=options["points"],
-            samples=verify.SAMPLES if options["samples"] is None else options["samples"],
+            samples=SAMPLES if options["samples"] is None else options["samples"],
             seed=_options.seed_of(options["seed"]),
             threads=options["threads"],
             tolerance=options["tolerance"],

@@ -68,7 +68,7 @@ def command(**options: Any) -> int:
     """
     from montecarlo_brdf.cli._progress import progress
     from montecarlo_brdf.report.plots import kind_of, plot
-    from montecarlo_brdf.verify import SAMPLES
+    from montecarlo_brdf.verify.common import SAMPLES
     from montecarlo_brdf.verify.radiance import radiance
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])

@@ -11,17 +11,17 @@ from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from montecarlo_brdf import bits, jit
-from montecarlo_brdf.integration import cache, kernel, native, parameters
+from montecarlo_brdf.integration import cache, compiler, kernel, linking, native, parameters
+from montecarlo_brdf.integration.fingerprint import Fingerprint
 from montecarlo_brdf.integration.integrands import PLANE
-from montecarlo_brdf.integration.specialise import Fingerprint, Specialiser
+from montecarlo_brdf.integration.reach import takes_more
+from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.sampling import points as point_sets
 
 Function = Callable[..., Any]
 
 #: What a kernel calls its integrands.
 NAMES = ("FIRST", "SECOND", "THIRD", "FOURTH", "FIFTH")
-#: How everything but the kernel itself is compiled: only ever called from other compiled code.
-INLINE = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 class Buildable(Protocol):
@@ -35,7 +35,7 @@ class Buildable(Protocol):
         """The very objects it is made of: within a process the same objects are the same kernel."""
         ...
 
-    def assemble(self) -> Function:
+    def assemble(self, special: Specialiser) -> Function:
         """The template with everything bound, ready to be compiled."""
         ...
 
@@ -63,14 +63,18 @@ class Recipe(NamedTuple):
     def point_set(self) -> Function:
         """The points; of Sobol's only the coordinates that the integrands use."""
         if self.points == "sobol" and all(i in PLANE for i in self.integrands):
-            return point_sets.sobol_plane
+            choosing = takes_more(self.functions.get("SAMPLE"), 1, 2)
+            return point_sets.sobol_plane if choosing else point_sets.sobol_pair
         found: Function = getattr(point_sets, self.points)
         return found
+
+    def _shape(self) -> Function:
+        return kernel.shaped if self.points in point_sets.SHAPES else kernel.shapeless
 
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
         content = fingerprint(self.layout)
-        content.add(self.point_set())
+        content.add((self.point_set(), self._shape()))
         for integrand in self.integrands:
             if isinstance(integrand, Wrapped):
                 content.add(integrand.outer)
@@ -84,12 +88,12 @@ class Recipe(NamedTuple):
         """Points, functions and layout."""
         return self.points, self.integrands, frozenset(self.functions.items()), self.layout
 
-    def assemble(self) -> Function:
+    def assemble(self, special: Specialiser) -> Function:
         """The template `moments` with everything bound."""
-        special = specialiser()
         integrands = [self._bound(special, i) for i in self.integrands]
         bound = {
             "POINTS": self.point_set(),
+            "SHAPE": self._shape(),
             "STORE": _store(special, integrands),
             "PARAMETERS": parameters.unpacker(self.layout),
             "BUFFER": _buffer(kernel.BLOCK * self.channels * len(integrands)),
@@ -117,7 +121,7 @@ def fingerprint(layout: parameters.Layout) -> Fingerprint:
 @functools.cache
 def _compiler_source() -> tuple[bytes, ...]:
     """The files that say how code is generated, as opposed to what it computes."""
-    sources = (bits, jit, native, parameters, sys.modules[__name__])
+    sources = (bits, jit, compiler, linking, native, parameters, sys.modules[__name__])
     return tuple(Path(str(m.__file__)).read_bytes() for m in sources)
 
 
@@ -147,11 +151,10 @@ def _from_disk(key: str) -> native.NativeKernel | None:
 
 def _from_source(recipe: Buildable, key: str) -> native.NativeKernel:
     with _no_collection():
-        function = recipe.assemble()
         try:
-            image = native.compile_function(function)
-        except native.NeedsRuntime:
-            return native.compile_in_process(function)
+            image = compiler.compile_function(recipe.assemble(specialiser(compiler.part)))
+        except compiler.NeedsRuntime:
+            return compiler.compile_in_process(recipe.assemble(specialiser()))
     cache.write(key, image)
     return native.load(image)
 
@@ -169,14 +172,8 @@ def _no_collection() -> Iterator[None]:
 
 
 @functools.cache
-def specialiser() -> Specialiser:
+def specialiser(compile_one: Callable[[Function], Any] = compiler.whole) -> Specialiser:
     """One for the process, so that kernels share the functions they have in common."""
-    import numba
-
-    def compile_one(function: Function) -> Any:
-        options: dict[str, Any] = {**INLINE, **jit.options()}
-        return numba.njit(**options)(function)
-
     return Specialiser(compile_one, bits.compiled_twins())
 
 

@@ -39,14 +39,14 @@ def periodised_twice(u: Any, fixed: Any, p: Any) -> float:
 
 def albedo_half_vector(u: Any, fixed: Any, p: Any) -> float:
     """f cos dwi in the half-vector chart: E = A(wo)."""
-    wo = (fixed[0], fixed[1], fixed[2])
+    wo = fixed[:3]
     x, y, z, area = charts.half_vector(wo, u[0], u[1], fixed[3])
     return F(wo, (x, y, z), p) * z * area
 
 
 def reverse_half_vector(u: Any, fixed: Any, p: Any) -> float:
     """f cos dwo in the half-vector chart: E = R(wi)."""
-    wi = (fixed[0], fixed[1], fixed[2])
+    wi = fixed[:3]
     x, y, z, area = charts.half_vector(wi, u[0], u[1], fixed[3])
     return F((x, y, z), wi, p) * z * area
 
@@ -61,14 +61,14 @@ def bihemispherical_half_vector(u: Any, fixed: Any, p: Any) -> float:
 
 def albedo_mirror(u: Any, fixed: Any, p: Any) -> float:
     """f cos dwi in the mirror chart: E = A(wo)."""
-    wo = (fixed[0], fixed[1], fixed[2])
+    wo = fixed[:3]
     x, y, z, area = charts.mirror(wo, u[0], u[1], fixed[3])
     return F(wo, (x, y, z), p) * z * area
 
 
 def reverse_mirror(u: Any, fixed: Any, p: Any) -> float:
     """f cos dwo in the mirror chart: E = R(wi)."""
-    wi = (fixed[0], fixed[1], fixed[2])
+    wi = fixed[:3]
     x, y, z, area = charts.mirror(wi, u[0], u[1], fixed[3])
     return F((x, y, z), wi, p) * z * area
 
@@ -83,7 +83,7 @@ def bihemispherical_mirror(u: Any, fixed: Any, p: Any) -> float:
 
 def albedo_panels(u: Any, fixed: Any, p: Any) -> float:
     """f cos dwi, one direction in each panel between the kinks: E = A(wo)."""
-    wo = (fixed[0], fixed[1], fixed[2])
+    wo = fixed[:3]
     x, y, z, area = charts.panel(wo, u[0], u[1], True)
     high = (F(wo, (x, y, z), p) + F(wo, (-x, -y, z), p)) * area
     x, y, z, area = charts.panel(wo, u[0], u[1], False)
@@ -92,7 +92,7 @@ def albedo_panels(u: Any, fixed: Any, p: Any) -> float:
 
 def reverse_panels(u: Any, fixed: Any, p: Any) -> float:
     """f cos dwo, one direction in each panel between the kinks: E = R(wi)."""
-    wi = (fixed[0], fixed[1], fixed[2])
+    wi = fixed[:3]
     x, y, z, area = charts.panel(wi, u[0], u[1], True)
     high = (F((x, y, z), wi, p) + F((-x, -y, z), wi, p)) * area
     x, y, z, area = charts.panel(wi, u[0], u[1], False)
@@ -124,7 +124,7 @@ def probed(wo: Vec, k: float) -> Vec:
 
 def seen_half_vector(u: Any, fixed: Any, p: Any) -> float:
     """The largest value of `albedo_half_vector` at a probed direction."""
-    wo = (fixed[0], fixed[1], fixed[2])
+    wo = fixed[:3]
     wi = probed(wo, u[0])
     area = charts.half_vector_area(wo, wi, fixed[3]) if wi[2] > 0.0 else 0.0
     return F(wo, wi, p) * wi[2] * area if wi[2] > 0.0 else 0.0
@@ -132,7 +132,7 @@ def seen_half_vector(u: Any, fixed: Any, p: Any) -> float:
 
 def seen_mirror(u: Any, fixed: Any, p: Any) -> float:
     """The largest value of `albedo_mirror` at a probed direction."""
-    wo = (fixed[0], fixed[1], fixed[2])
+    wo = fixed[:3]
     wi = probed(wo, u[0])
     area = charts.mirror_area(wo, wi, fixed[3]) if wi[2] > 0.0 else 0.0
     return F(wo, wi, p) * wi[2] * area if wi[2] > 0.0 else 0.0
@@ -140,13 +140,13 @@ def seen_mirror(u: Any, fixed: Any, p: Any) -> float:
 
 def seen_cosine(u: Any, fixed: Any, p: Any) -> float:
     """The largest value at a probed direction of `albedo_cosine` made periodic."""
-    wo = (fixed[0], fixed[1], fixed[2])
+    wo = fixed[:3]
     wi = probed(wo, u[0])
     return 1.875 * math.pi * F(wo, wi, p) if wi[2] > 0.0 else 0.0
 
 
 def seen_panels(u: Any, fixed: Any, p: Any) -> float:
     """The largest value of `albedo_panels` at a probed direction, both steps at their steepest."""
-    wo = (fixed[0], fixed[1], fixed[2])
+    wo = fixed[:3]
     wi = probed(wo, u[0])
     return 1.875 * 1.875 * math.pi * F(wo, wi, p) if wi[2] > 0.0 else 0.0

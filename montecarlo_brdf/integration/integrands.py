@@ -22,28 +22,36 @@ TWO_PI = 2.0 * math.pi
 def albedo_uniform(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wi uniform over the hemisphere: E = A(wo)."""
     wi = random_hemisphere(u[0], u[1])
-    return F((fixed[0], fixed[1], fixed[2]), wi, p) * wi[2] * TWO_PI
+    return F(fixed[:3], wi, p) * wi[2] * TWO_PI
 
 
 def albedo_cosine(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wi cosine-weighted: E = A(wo), the cosine cancels."""
     wi = random_hemisphere_cosine(u[0], u[1])
-    return F((fixed[0], fixed[1], fixed[2]), wi, p) * PI
+    return F(fixed[:3], wi, p) * PI
+
+
+def drawn(wo: Any, u: Any, p: Any) -> tuple[float, float, float]:
+    """(cos theta_i, f, pdf) of a direction from the model's sampler; f = 0 where it rejects.
+
+    Integrands of one kernel share it: its work is compiled and done once.
+    """
+    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
+    if wi[2] <= 0.0:
+        return 0.0, 0.0, 1.0
+    wi = wi[:3]
+    return wi[2], F(wo, wi, p), PDF(wo, wi, p)
 
 
 def albedo_own(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wi from the model's sampler: E = A(wo)."""
-    wo = (fixed[0], fixed[1], fixed[2])
-    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
-    if wi[2] <= 0.0:
-        return 0.0
-    wi = (wi[0], wi[1], wi[2])
-    return F(wo, wi, p) * wi[2] / PDF(wo, wi, p)
+    mu, f, pdf = drawn(fixed[:3], u, p)
+    return f * mu / pdf
 
 
 def albedo_weighted(u: Any, fixed: Any, p: Any) -> float:
     """The weight f cos / pdf that the model's sampler returns itself: E = A(wo)."""
-    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[4]), p)
+    wi = SAMPLE(fixed[:3], (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
     return wi[3]
@@ -52,22 +60,22 @@ def albedo_weighted(u: Any, fixed: Any, p: Any) -> float:
 def reverse_uniform(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wo uniform over the hemisphere: E = R(wi)."""
     wo = random_hemisphere(u[0], u[1])
-    return F(wo, (fixed[0], fixed[1], fixed[2]), p) * wo[2] * TWO_PI
+    return F(wo, fixed[:3], p) * wo[2] * TWO_PI
 
 
 def reverse_cosine(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wo cosine-weighted: E = R(wi)."""
     wo = random_hemisphere_cosine(u[0], u[1])
-    return F(wo, (fixed[0], fixed[1], fixed[2]), p) * PI
+    return F(wo, fixed[:3], p) * PI
 
 
 def reverse_own(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wo drawn as the model's sampler would draw wi: E = R(wi)."""
-    wi = (fixed[0], fixed[1], fixed[2])
+    wi = fixed[:3]
     drawn = SAMPLE(wi, (u[0], u[1], u[4]), p)
     if drawn[2] <= 0.0:
         return 0.0
-    wo = (drawn[0], drawn[1], drawn[2])
+    wo = drawn[:3]
     return F(wo, wi, p) * wo[2] / PDF(wi, wo, p)
 
 
@@ -87,12 +95,8 @@ def bihemispherical_cosine(u: Any, fixed: Any, p: Any) -> float:
 
 def bihemispherical_own(u: Any, fixed: Any, p: Any) -> float:
     """wo cosine-weighted, wi from the model's sampler."""
-    wo = random_hemisphere_cosine(u[2], u[3])
-    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
-    if wi[2] <= 0.0:
-        return 0.0
-    wi = (wi[0], wi[1], wi[2])
-    return F(wo, wi, p) * wi[2] / PDF(wo, wi, p)
+    mu, f, pdf = drawn(random_hemisphere_cosine(u[2], u[3]), u, p)
+    return f * mu / pdf
 
 
 def bihemispherical_weighted(u: Any, fixed: Any, p: Any) -> float:
@@ -105,24 +109,14 @@ def bihemispherical_weighted(u: Any, fixed: Any, p: Any) -> float:
 
 def second_uniform(u: Any, fixed: Any, p: Any) -> float:
     """E[x^2] of `albedo_uniform`, from draws by the model's own sampler, which sees its lobe."""
-    wo = (fixed[0], fixed[1], fixed[2])
-    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
-    if wi[2] <= 0.0:
-        return 0.0
-    wi = (wi[0], wi[1], wi[2])
-    value = F(wo, wi, p) * wi[2]
-    return value * value * TWO_PI / PDF(wo, wi, p)
+    mu, f, pdf = drawn(fixed[:3], u, p)
+    return f * mu * f * mu * TWO_PI / pdf
 
 
 def second_cosine(u: Any, fixed: Any, p: Any) -> float:
     """E[x^2] of `albedo_cosine`, from draws by the model's own sampler."""
-    wo = (fixed[0], fixed[1], fixed[2])
-    wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
-    if wi[2] <= 0.0:
-        return 0.0
-    wi = (wi[0], wi[1], wi[2])
-    value = F(wo, wi, p)
-    return value * value * wi[2] * PI / PDF(wo, wi, p)
+    mu, f, pdf = drawn(fixed[:3], u, p)
+    return f * f * mu * PI / pdf
 
 
 def hemisphere_uniform(u: Any, fixed: Any, p: Any) -> float:
@@ -138,7 +132,7 @@ def hemisphere_cosine(u: Any, fixed: Any, p: Any) -> float:
 
 def rejected_own(u: Any, fixed: Any, p: Any) -> float:
     """1 where the model's sampler rejects: E = the rejected fraction."""
-    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[4]), p)
+    wi = SAMPLE(fixed[:3], (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 1.0
     return 0.0
@@ -150,31 +144,31 @@ SKY: Any = None  # SKY(w, which): one kernel serves several skies, told apart by
 def radiance_uniform(u: Any, fixed: Any, p: Any) -> float:
     """f L cos / pdf with wi uniform: E = reflected radiance under the light SKY."""
     wi = random_hemisphere(u[0], u[1])
-    return F((fixed[0], fixed[1], fixed[2]), wi, p) * wi[2] * SKY(wi, fixed[3]) * TWO_PI
+    return F(fixed[:3], wi, p) * wi[2] * SKY(wi, fixed[3]) * TWO_PI
 
 
 def radiance_cosine(u: Any, fixed: Any, p: Any) -> float:
     """f L cos / pdf with wi cosine-weighted."""
     wi = random_hemisphere_cosine(u[0], u[1])
-    return F((fixed[0], fixed[1], fixed[2]), wi, p) * SKY(wi, fixed[3]) * PI
+    return F(fixed[:3], wi, p) * SKY(wi, fixed[3]) * PI
 
 
 def radiance_own(u: Any, fixed: Any, p: Any) -> float:
     """f L cos / pdf with wi from the model's sampler."""
-    wo = (fixed[0], fixed[1], fixed[2])
+    wo = fixed[:3]
     wi = SAMPLE(wo, (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
-    wi = (wi[0], wi[1], wi[2])
+    wi = wi[:3]
     return F(wo, wi, p) * wi[2] * SKY(wi, fixed[3]) / PDF(wo, wi, p)
 
 
 def radiance_weighted(u: Any, fixed: Any, p: Any) -> float:
     """L times the weight that the model's sampler returns."""
-    wi = SAMPLE((fixed[0], fixed[1], fixed[2]), (u[0], u[1], u[4]), p)
+    wi = SAMPLE(fixed[:3], (u[0], u[1], u[4]), p)
     if wi[2] <= 0.0:
         return 0.0
-    return wi[3] * SKY((wi[0], wi[1], wi[2]), fixed[3])
+    return wi[3] * SKY(wi[:3], fixed[3])
 
 
 #: integrands that use the coordinates 0, 1 and 4 of a point only

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from montecarlo_brdf.bits import double_of, u64, word_of
-from montecarlo_brdf.sampling.points import replicate_key
+from montecarlo_brdf.sampling.points import NONE, replicate_key
 
 BLOCK = 1024
 #: reals before the parameters: the fixed direction (x, y, z) and one number for the integrand
@@ -19,6 +19,7 @@ QUERY = 4
 STATE = 4
 
 POINTS: Any = None
+SHAPE: Any = None
 STORE: Any = None
 FIRST: Any = None
 SECOND: Any = None
@@ -37,7 +38,7 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
     ints = (key, first, many, start, count, shape of the point set); reals = query and parameters;
     out holds STATE numbers per replicate, channel and integrand, all zero before the first call.
     """
-    shape = (u64(ints[5]), u64(ints[6]), u64(ints[7]), u64(ints[8]), u64(ints[9]))
+    shape = SHAPE(ints)
     query = (reals[0], reals[1], reals[2], reals[3])
     parameters = PARAMETERS(reals)
     x = BUFFER()
@@ -54,6 +55,16 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
             for k in range(CHANNELS * SLOTS):
                 merge_block(x, k * BLOCK, m, out, (r * CHANNELS * SLOTS + k) * STATE)
             i += m
+
+
+def shaped(ints: Any) -> Any:
+    """The shape of a point set that has one."""
+    return u64(ints[5]), u64(ints[6]), u64(ints[7]), u64(ints[8]), u64(ints[9])
+
+
+def shapeless(ints: Any) -> Any:
+    """In place of the shape for point sets that need none: quicker to compile."""
+    return NONE
 
 
 def store(u: Any, query: Any, p: Any, x: Any, at: int) -> None:

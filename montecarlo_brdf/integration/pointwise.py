@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import build, paced, parameters
 from montecarlo_brdf.integration.native import NativeKernel
+from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.model import Model
 
 PARAMETERS: Any = None
@@ -67,10 +68,10 @@ class Listing(NamedTuple):
         """Template, functions and layout."""
         return self.template, frozenset(self.bound.items()), self.layout
 
-    def assemble(self) -> Any:
+    def assemble(self, special: Specialiser) -> Any:
         """The template with everything bound."""
         unpack = parameters.unpacker(self.layout)
-        return build.specialiser().clone(self.template, {**self.bound, "PARAMETERS": unpack})
+        return special.clone(self.template, {**self.bound, "PARAMETERS": unpack})
 
 
 class Pointwise:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import build, estimators, integrands, paced, parameters
+from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.warps import random_hemisphere, random_hemisphere_cosine
 
@@ -132,9 +133,8 @@ class Listing(NamedTuple):
         """Template, functions and layout."""
         return self.template, self.function, frozenset(self.functions.items()), self.layout
 
-    def assemble(self) -> Any:
+    def assemble(self, special: Specialiser) -> Any:
         """The template with everything bound."""
-        special = build.specialiser()
         name = "INTEGRAND" if self.template is means else "FUNCTION"
         function = special.bind(self.function, self.functions) if self.functions else self.function
         unpack = parameters.unpacker(self.layout)

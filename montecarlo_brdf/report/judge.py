@@ -20,7 +20,6 @@ from montecarlo_brdf.checks.claim import (
     Reference,
     Skip,
 )
-from montecarlo_brdf.checks.hints import hint
 from montecarlo_brdf.integration.estimators import Plan
 from montecarlo_brdf.report.exact import exact_finding
 from montecarlo_brdf.report.findings import Finding
@@ -132,6 +131,12 @@ def confirmed(claim: MeanClaim, plan: Plan, level: float, accused: set[str]) -> 
     return any(o.verdict == "fail" and o.measurement.estimator in accused for o in again)
 
 
+def _hint(claim: MeanClaim, value: float) -> str | None:
+    from montecarlo_brdf.checks.hints import hint  # imports numpy, which a pass does without
+
+    return hint(claim, value)
+
+
 def _finding(
     claim: MeanClaim, opinions: list[Opinion], spent: float, level: float, known: str | None
 ) -> Finding:
@@ -159,7 +164,7 @@ def _finding(
         else None,
         estimators=[_row(o) for o in opinions],
         note=known if verdict == "known" else _note(verdict, opinions) or e.method or None,
-        hint=hint(claim, e.mean) if verdict in ("fail", "known") else None,
+        hint=_hint(claim, e.mean) if verdict in ("fail", "known") else None,
         reproduce=claim.reproduce or None,
     )
 

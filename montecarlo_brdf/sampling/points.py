@@ -16,6 +16,7 @@ from montecarlo_brdf.sampling.sobol import (
     pascal_reversed,
     scrambled,
     sobol,
+    sobol_pair,
     sobol_plane,
     sobol_shuffled,
 )
@@ -24,7 +25,7 @@ from montecarlo_brdf.sampling.stratified import grid, stratified
 __all__ = [
     "DIMENSIONS", "NONE", "Point", "SETS", "SHAPES", "Shape", "axis_key", "counted", "independent",
     "independent_axis", "lattice", "owen_reversed", "pascal_reversed", "replicate_key", "scrambled",
-    "sobol", "sobol_plane", "sobol_shuffled", "stratified",
+    "sobol", "sobol_pair", "sobol_plane", "sobol_shuffled", "stratified",
 ]  # fmt: skip
 
 #: name -> largest number of points per replicate, and whether it must be a power of two

@@ -53,7 +53,7 @@ def own(u: Any, wo: Any, p: Any) -> float:
     drawn = SAMPLE(view, (u[0], u[1], u[2]), p.model)
     if drawn[2] <= 0.0:
         return 0.0
-    wi = (drawn[0], drawn[1], drawn[2])
+    wi = drawn[:3]
     return F(view, wi, p.model) * SKY(wi, p.sky) * wi[2] / PDF(view, wi, p.model)
 
 
@@ -62,7 +62,7 @@ def weighted(u: Any, wo: Any, p: Any) -> float:
     drawn = SAMPLE((wo[0], wo[1], wo[2]), (u[0], u[1], u[2]), p.model)
     if drawn[2] <= 0.0:
         return 0.0
-    return drawn[3] * SKY((drawn[0], drawn[1], drawn[2]), p.sky)
+    return drawn[3] * SKY(drawn[:3], p.sky)
 
 
 def mixed(u: Any, wo: Any, p: Any) -> float:
@@ -76,7 +76,7 @@ def mixed(u: Any, wo: Any, p: Any) -> float:
     twice = 2.0 * u[0]
     if twice < 1.0:
         drawn = SAMPLE(view, (twice, u[1], u[2]), p.model)
-        wi = (drawn[0], drawn[1], drawn[2])
+        wi = drawn[:3]
     else:
         wi = SKY_SAMPLE(twice - 1.0, u[1], p.sky)
     if wi[2] <= 0.0:

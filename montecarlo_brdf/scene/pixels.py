@@ -16,6 +16,7 @@ from montecarlo_brdf.bits import u64
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import build, parameters
 from montecarlo_brdf.integration.estimators import compiled
+from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key
 from montecarlo_brdf.scene import integrands, skies
@@ -105,9 +106,8 @@ class Recipe(NamedTuple):
         """Integrand, functions and layout."""
         return self.integrand, frozenset(self.functions.items()), self.layout
 
-    def assemble(self) -> Callable[..., Any]:
+    def assemble(self, special: Specialiser) -> Callable[..., Any]:
         """The template with everything bound."""
-        special = build.specialiser()
         bound = {
             "POINTS": point_sets.sobol,
             "INTEGRAND": special.bind(self.integrand, self.functions),

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from montecarlo_brdf import verify
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.report.findings import Finding
 from montecarlo_brdf.testing import as_model
+from montecarlo_brdf.verify.run import run
 
 
 def half(wo: Any, wi: Any, p: Any) -> float:
@@ -60,7 +60,7 @@ def nowhere(wo: Any, wi: Any, p: Any) -> float:
 
 def refuted(sample: Any, pdf: Any) -> list[Finding]:
     model = as_model(SimpleNamespace(f=half, sample=sample, pdf=pdf))
-    report = verify.run(model, names=["pdf"], theta_o_deg=(30.0,), samples=1 << 16)
+    report = run(model, names=["pdf"], theta_o_deg=(30.0,), samples=1 << 16)
     return [f for r in report.results for f in r.findings if f.verdict == "fail"]
 
 

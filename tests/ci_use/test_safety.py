@@ -21,7 +21,8 @@ from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import work
 from montecarlo_brdf.integration.estimators import directional_albedo
 from montecarlo_brdf.integration.kernel import BLOCK
-from montecarlo_brdf.verify import Deadline, subject
+from montecarlo_brdf.verify import subject
+from montecarlo_brdf.verify.common import Deadline
 from montecarlo_brdf.verify.supervision import still_running, supervised
 
 NEVER = "def f(wo, wi, p):\n    while True:\n        pass\n"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from montecarlo_brdf.integration.specialise import Fingerprint
+from montecarlo_brdf.integration.fingerprint import Fingerprint
 
 BASE = """
 import math
