@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf import student
 from montecarlo_brdf.integration import build, charted
 from montecarlo_brdf.integration.kernel import STATE
+from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.statistics import FLOOR
 
 LEVEL = 0.01  # of the interval that must be below the target, over all looks
@@ -121,11 +122,10 @@ class Climb(NamedTuple):
         """Those of the means, and the probe."""
         return self.means.parts(), self.seen
 
-    def assemble(self) -> Any:
+    def assemble(self, special: Specialiser) -> Any:
         """The template `climb` with everything bound."""
-        special = build.specialiser()
-        means = special.compiled(self.means.assemble())
-        highest = special.compiled(self._probing().assemble()) if self.seen else means
+        means = special.compiled(self.means.assemble(special))
+        highest = special.compiled(self._probing().assemble(special)) if self.seen else means
         probes = charted.PROBES if self.seen else 0
         bound = {"MOMENTS": means, "HIGHEST": highest, "PROBES": probes}
         return special.clone(climb, {**bound, "CHANNELS": self.means.channels})

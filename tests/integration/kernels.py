@@ -35,6 +35,7 @@ def in_python(model: Model, p: Any, name: str) -> Callable[[Any], float]:
     """u -> x by the uncompiled integrand."""
     template = getattr(integrands, name)
     scope = {**template.__globals__, **functions(model)}
+    scope["drawn"] = types.FunctionType(integrands.drawn.__code__, scope)  # sees the same names
     function = types.FunctionType(template.__code__, scope)
     return lambda u: float(function(u, (*WO, 0.0), model.prepared(p)))
 
