@@ -7,6 +7,8 @@ apart into its terms, so that each can be planned for itself.
 from __future__ import annotations
 
 import dis
+import functools
+import types
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.model import Model, channels
@@ -60,8 +62,12 @@ def spread(values: tuple[Any, ...], count: int) -> tuple[Any, ...]:
 
 def ignores_directions(model: Model) -> bool:
     """Whether f never looks at wo and wi: then it is a constant, proven by its code."""
-    function = getattr(model.f, "py_func", model.f)
-    code = function.__code__
+    return _ignores_first_two(getattr(model.f, "py_func", model.f).__code__)
+
+
+@functools.lru_cache(maxsize=256)
+def _ignores_first_two(code: types.CodeType) -> bool:
+    """Whether a function never loads its first two arguments; asked for every lobe of a plan."""
     directions = set(code.co_varnames[:2])
     loads = {
         i.argval
