@@ -49,6 +49,8 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
 
     `second` estimates E[x^2] of this sampler from draws by the model's own.
     """
+    if e.mean == 0.0 and sight.highest > 0.0 and sampler in SCALE:
+        return f"a lobe that {sampler} sampling did not hit once in {e.samples} samples"
     if sampler not in SCALE or not e.mean > 0.0:
         return None
     if not moment_is_finite(2, sampler, sight.exponent):
