@@ -31,11 +31,11 @@ class Params(NamedTuple):
 
 
 domain = {"albedo": (0.0, 1.0), "sigma": (0.0, math.pi / 2.0)}
-verified = [Params(), Params(sigma=0.0), Params(albedo=0.5, sigma=1.2)]
+verified = [Params(), Params(sigma=0.0), Params(albedo=0.05, sigma=0.5 * math.pi)]
 limits = [({"sigma": 0.0}, "lambert")]
 disclaims = {
     "energy": "albedo 1 reflects up to 1.051019 at grazing (sigma = 0.3044)",
-    "positivity": "pi f/albedo falls to -0.25 where both directions graze (sigma = pi/2)",
+    "positivity": "pi f/albedo falls to -0.25 where both directions graze (sigma = pi/2, albedo 0)",
 }
 kinks = ("mu_i=mu_o", "cos_phi=0")
 
