@@ -42,3 +42,11 @@ def single_axis(mu: float, n: float) -> float:
     from scipy.special import betainc
 
     return 0.5 * (1.0 + float(betainc(0.5, 0.5 * (n + 1.0), mu * mu)))
+
+
+def mirrored_double_axis(mu: float, n: float) -> float:
+    """(n+2)/(2 pi) (J_n(theta) + J_n(pi - theta)): the lobe and its mirror image below."""
+    from scipy.special import betainc
+
+    lobe = mu * float(betainc(0.5, 0.5 * n + 1.0, mu * mu))
+    return lobe + b_n(n) / math.pi * _sine_power(mu, n + 2.0)

@@ -12,10 +12,11 @@ MODELS = {
     "phong_modified_unnormalised": "phong_unnormalised",
     "phong_original_normalised": "phong_original",
     "phong_original_unnormalised": "phong_original",
+    "phong_modified_unclamped": "phong_unclamped",
 }
 DISTRIBUTIONS = {"ggx": "ggx", "beckmann": "beckmann", "blinn": "blinn_phong"}
 MASKINGS = {"corr": "smith", "sep": "separable", "vcavity": "v_cavity"}
-NOT_SHIPPED = {"mixture", "phong_modified_unclamped"}
+NOT_HERE = {"mixture"}  # tests/models/test_mixtures.py
 
 
 class Entry(NamedTuple):
@@ -49,13 +50,15 @@ def _parameters(model: str, raw: dict[str, Any]) -> dict[str, Any]:
     names = {albedo: "albedo", "base": "albedo", "r": "roughness", "Rd": "rd", "Rs": "rs"}
     renamed = {names.get(key, key): value for key, value in raw.items()}
     norms = {"phong_original_normalised": "n+1", "phong_original_unnormalised": "none"}
+    if model == "phong_modified_unclamped":
+        return renamed | {"parity": "odd" if raw["n"] % 2 else "even"}
     return renamed | ({"norm": norms[model]} if model in norms else {})
 
 
 def load(*quantities: str) -> list[Entry]:
     entries = []
     for e in json.loads(FILE.read_text()):
-        if e["quantity"] in quantities and e["model"] not in NOT_SHIPPED:
+        if e["quantity"] in quantities and e["model"] not in NOT_HERE:
             name = MODELS.get(e["model"], e["model"])
             parameters = _parameters(e["model"], e["params"])
             resolution = abs(float(e["value"])) * 10.0 ** (1 - e["digits"])
