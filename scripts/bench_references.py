@@ -21,13 +21,15 @@ from environment import describe
 
 from montecarlo_brdf import references
 
-ANGLES = (0.0, 30.0, 60.0, 85.0, 89.0, 89.9)
+ANGLES = (0.0, 30.0, 60.0, 85.0, 89.0, 89.9, 89.99)
 #: name -> reference, parameters, the most milliseconds that one angle may take
 CASES: dict[str, tuple[str, dict[str, Any], float]] = {
     "ggx alpha 0.3": ("ggx", {"alpha": 0.3, "f0": 1.0}, 2.0),
     "ggx alpha 0.05": ("ggx", {"alpha": 0.05, "f0": 1.0}, 2.0),
     "ggx alpha 0.05, f0 0.04": ("ggx", {"alpha": 0.05, "f0": 0.04}, 2.0),
     "ggx alpha 0.001": ("ggx", {"alpha": 0.001, "f0": 1.0}, 20.0),
+    "v_cavity alpha 0.001": ("cook_torrance", {"masking": "v_cavity", "alpha": 0.001}, 20.0),
+    "beckmann alpha 0.001": ("beckmann", {"alpha": 0.001, "f0": 1.0}, 20.0),
     "beckmann alpha 0.05": ("beckmann", {"alpha": 0.05, "f0": 1.0}, 20.0),
     "phong n 1e6": ("phong", {"ks": 1.0, "n": 1e6}, 20.0),
     "blinn_phong n 1e6": ("blinn_phong", {"ks": 1.0, "n": 1e6, "norm": "n+2"}, 20.0),

@@ -40,6 +40,12 @@ def walter(h: Vec, mu: Pair, hidden: Pair, alpha: float) -> float:
     return walter_g1(mu[0], alpha) * walter_g1(mu[1], alpha)
 
 
+def walter_correlated(h: Vec, mu: Pair, hidden: Pair, alpha: float) -> float:
+    """1/(1/G1_o + 1/G1_i - 1), height-correlated, with the rational fit of Beckmann's G1."""
+    o, i = walter_g1(mu[0], alpha), walter_g1(mu[1], alpha)
+    return o * i / (mu[1] * i + mu[0] * o - mu[0] * mu[1] * (o * i))
+
+
 def kelemen(h: Vec, mu: Pair, hidden: Pair, alpha: float) -> float:
     """mu_o mu_i/(h.v)^2: Kelemen & Szirmay-Kalos 2001."""
     return 4.0 / h[2]

@@ -7,13 +7,15 @@ lighter, so weights stay bounded (Beckmann: D/D_ggx <= 4/e).
 distribution: ggx, beckmann (width alpha, 1e-4 to 1) or blinn_phong (exponent n, 0 to 1e7, which is
 like alpha = sqrt(2/(n+2))).
 masking: smith (height-correlated) and separable, both with the exact Lambda of the distribution;
-v_cavity; walter (rational fit of Beckmann's G1); kelemen (G = mu_i mu_o/(h.v)^2); implicit
-(G = mu_i mu_o); none; schlick_k_direct and schlick_k_ibl.
+v_cavity; walter and walter_correlated (rational fit of Beckmann's G1, separable and
+height-correlated); kelemen (G = mu_i mu_o/(h.v)^2); implicit (G = mu_i mu_o); none;
+schlick_k_direct and schlick_k_ibl.
 fresnel: one, schlick (f0), dielectric (eta >= 1), conductor (eta, k).
 Source: Cook & Torrance 1982; Walter et al. 2007; Heitz 2014; Kelemen & Szirmay-Kalos 2001; Schlick
 1994; Karis 2013. Blinn-Phong's exact Lambda: formulas.md, section 6.
 Violates: energy conservation without masking (without bound at grazing), with walter for
-blinn_phong (1.25 at grazing, n = 1) and when divided by pi (4/pi = 1.273 for smooth surfaces).
+blinn_phong (1.25 at grazing, n = 1; 1.38 with walter_correlated), and when divided by pi
+(4/pi = 1.273 for smooth surfaces).
 """
 from __future__ import annotations
 
@@ -145,6 +147,7 @@ choices = {
         "separable": _masking.separable,
         "v_cavity": _masking.v_cavity,
         "walter": _masking.walter,
+        "walter_correlated": _masking.walter_correlated,
         "kelemen": _masking.kelemen,
         "implicit": _masking.implicit,
         "none": {

@@ -137,6 +137,12 @@ def walter(g: Geometry, d: Distribution) -> Array:
     return both / (g.mu_i * g.mu_o)
 
 
+def walter_correlated(g: Geometry, d: Distribution) -> Array:
+    """Height-correlated with Lambda = 1/G1 - 1 of the fit."""
+    o, i = _walter_g1(np.asarray(g.mu_o), d.alpha), _walter_g1(g.mu_i, d.alpha)
+    return 1.0 / ((1.0 / o + 1.0 / i - 1.0) * g.mu_i * g.mu_o)
+
+
 def walter_cosine(alpha: float) -> float:
     """The cosine at which the rational fit ends, with a small jump: a = 1.6."""
     return 1.6 * alpha / math.hypot(1.0, 1.6 * alpha)
@@ -185,6 +191,7 @@ MASKINGS: dict[str, Visibility] = {
     "separable": separable,
     "v_cavity": v_cavity,
     "walter": walter,
+    "walter_correlated": walter_correlated,
     "kelemen": kelemen,
     "implicit": implicit,
     "none": none,

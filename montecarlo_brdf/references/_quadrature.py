@@ -125,9 +125,10 @@ def slope_albedo(
         raise ValueError(f"cos_theta must lie in (0, 1], not {mu_o!r}")
     tan_o = max(sine(mu_o) / mu_o, NORMAL_VIEW)
     depth = np.arcsinh(min(tan_o + np.hypot(tan_o, 1.0), reach) / width)
-    # Gauss on half the circle takes twice, on the whole three times the midpoint rule's nodes
-    factor = {None: 1.0, np.inf: 3.0}.get(azimuth_break, 2.0)
-    n_azimuth, n_slope = factor * (8.0 + 6.0 * np.arcsinh(tan_o)), 24.0 + 4.0 * depth
+    # Gauss on half the circle takes as many, on the whole three times the midpoint rule's nodes
+    factor = 3.0 if azimuth_break == np.inf else 1.0
+    parts = 1 + (len(kinks(np.zeros(1))) if kinks else 0)  # panels that share the depth
+    n_azimuth, n_slope = factor * (8.0 + 6.0 * np.arcsinh(tan_o)), 24.0 + 4.0 * depth / parts
 
     def rule(size: float) -> Sum:
         k, azimuth_weight = azimuths(tan_o, node_count(size * n_azimuth), azimuth_break)

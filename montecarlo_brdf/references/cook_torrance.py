@@ -38,7 +38,7 @@ def _kinks(distribution: str, masking: str, mu_o: float, alpha: float) -> dict[s
             "kinks": microfacet.v_cavity_kinks,
             "azimuth_break": 1.0 if mu_o * mu_o < 0.5 else None,
         }
-    if masking == "walter":
+    if masking.startswith("walter"):
         mu = microfacet.walter_cosine(alpha)
         turn = math.sqrt(max((mu - mu_o) * (mu + mu_o), 0.0)) / mu_o
         return {"kinks": microfacet.cosine_kinks(mu_o, mu), "azimuth_break": turn or None}
@@ -87,7 +87,8 @@ def bihemispherical(**parameters: Any) -> Truth:
     d = microfacet.distribution(
         parameters.get("distribution", "ggx"), parameters.get("alpha"), parameters.get("n")
     )
-    breaks = {"v_cavity": (math.sqrt(0.5),), "walter": (microfacet.walter_cosine(d.alpha),)}
+    fit_ends = (microfacet.walter_cosine(d.alpha),)
+    breaks = {"v_cavity": (math.sqrt(0.5),), "walter": fit_ends, "walter_correlated": fit_ends}
     # with the masking of light at the normal not smooth, A is not smooth there either
     normal = (1.0,) if d.alpha > ROUGH else ()
     panels = breaks.get(parameters.get("masking", "smith"), normal)

@@ -12,7 +12,7 @@ from montecarlo_brdf import references
 from montecarlo_brdf.references._quadrature import quadrature
 
 ANGLES = (0.0, 55.0, 89.9)
-MASKINGS = ["smith", "separable", "walter", "kelemen", "implicit", "none"]
+MASKINGS = ["smith", "separable", "walter", "walter_correlated", "kelemen", "implicit", "none"]
 MASKINGS += ["schlick_k_direct", "schlick_k_ibl"]
 
 

@@ -68,6 +68,8 @@ def masking(name: str, wi: Array, wo: Any, hn: Array, hv: Array, alpha: float) -
         return np.minimum(1.0, 2.0 * hn * np.minimum(i, o) / hv)
     if name == "walter":
         return g1_walter(i, alpha) * g1_walter(o, alpha)
+    if name == "walter_correlated":
+        return 1.0 / (1.0 / g1_walter(i, alpha) + 1.0 / g1_walter(o, alpha) - 1.0)
     if name.startswith("schlick_k"):
         return i / (i * (1.0 - k) + k) * o / (o * (1.0 - k) + k)
     return {"kelemen": i * o / hv**2, "implicit": i * o, "none": 1.0}[name]
