@@ -36,7 +36,7 @@ def walter_g1(mu: float, alpha: float) -> float:
 
 
 def walter(h: Vec, mu: Pair, hidden: Pair, alpha: float) -> float:
-    """Separable, with the rational fit of Beckmann's G1."""
+    """Separable, with the rational fit of Beckmann's G1: Walter et al. 2007, eq. 27."""
     return walter_g1(mu[0], alpha) * walter_g1(mu[1], alpha)
 
 
@@ -47,7 +47,7 @@ def walter_correlated(h: Vec, mu: Pair, hidden: Pair, alpha: float) -> float:
 
 
 def kelemen(h: Vec, mu: Pair, hidden: Pair, alpha: float) -> float:
-    """mu_o mu_i/(h.v)^2: Kelemen & Szirmay-Kalos 2001."""
+    """mu_o mu_i/(h.v)^2: Kelemen & Szirmay-Kalos 2001, eq. 6."""
     return 4.0 / h[2]
 
 
@@ -57,7 +57,7 @@ def implicit(h: Vec, mu: Pair, hidden: Pair, alpha: float) -> float:
 
 
 def none(h: Vec, mu: Pair, hidden: Pair, alpha: float) -> float:
-    """1: nothing is masked."""
+    """1: nothing is masked, and grazing light is reflected without bound."""
     return 1.0 / (mu[0] * mu[1])
 
 

@@ -35,18 +35,22 @@ lobe = ("half vector", lambda p: width(p.n))
 
 
 def n_plus_2(p: Params) -> float:
+    """(n+2)/(8 pi): albedo below 1 at every angle."""
     return (p.n + 2.0) / (8.0 * math.pi)
 
 
 def n_plus_8(p: Params) -> float:
+    """(n+8)/(8 pi): Akenine-Moller, Haines & Hoffman 2008, eq. 7.47."""
     return (p.n + 8.0) / (8.0 * math.pi)
 
 
 def exact(p: Params) -> float:
+    """(n+2)(n+4)/(8 pi (2^(-n/2) + n)): Giesen 2009."""
     return (p.n + 2.0) * (p.n + 4.0) / (8.0 * math.pi * (exp2(-0.5 * p.n) + p.n))
 
 
 def none(p: Params) -> float:
+    """N = 1: Blinn 1977, as published."""
     return 1.0
 
 

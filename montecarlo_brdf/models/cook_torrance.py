@@ -68,6 +68,7 @@ class PreparedBlinnPhong(NamedTuple):
 
 
 def ggx(h: Vec, p: Prepared) -> float:
+    """Trowbridge & Reitz 1975; Walter et al. 2007, eq. 33."""
     return ggx_density(h, p.alpha)
 
 
@@ -77,6 +78,7 @@ def hidden_by_ggx(w: Vec, p: Prepared) -> float:
 
 
 def beckmann(h: Vec, p: Prepared) -> float:
+    """Beckmann & Spizzichino 1963; Walter et al. 2007, eq. 25."""
     return beckmann_density(h, p.alpha)
 
 
@@ -85,6 +87,7 @@ def hidden_by_beckmann(w: Vec, p: Prepared) -> float:
 
 
 def blinn_phong(h: Vec, p: PreparedBlinnPhong) -> float:
+    """Blinn 1977, normalised: Walter et al. 2007, eq. 30."""
     return (p.n + 2.0) / (2.0 * math.pi) * half_power(h, p.n)
 
 
@@ -98,26 +101,32 @@ def with_exponent(p: Any, optics: tuple[float, float]) -> PreparedBlinnPhong:
 
 
 def one(h: Vec, p: Prepared) -> float:
+    """Everything is reflected."""
     return 1.0
 
 
 def schlick_f0(h: Vec, p: Prepared) -> float:
+    """f0 + (1 - f0)(1 - h.v)^5: Schlick 1994, eq. 15."""
     return schlick(h, p.fresnel0)
 
 
 def real_index(h: Vec, p: Prepared) -> float:
+    """Exact for a real index: Born & Wolf, section 1.5.2."""
     return dielectric(0.5 * math.sqrt(h[2]), p.fresnel0)
 
 
 def complex_index(h: Vec, p: Prepared) -> float:
+    """Exact for an index eta + i k: Born & Wolf, section 14.2."""
     return conductor(0.5 * math.sqrt(h[2]), p.fresnel0, p.fresnel1)
 
 
 def by_four() -> float:
+    """Torrance & Sparrow 1967; Walter et al. 2007, eq. 20."""
     return 4.0
 
 
 def by_pi() -> float:
+    """Cook & Torrance 1982, as it is usually quoted."""
     return math.pi
 
 

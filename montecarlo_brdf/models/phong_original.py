@@ -40,10 +40,12 @@ lobe = ("mirror", lambda p: width(p.n))
 
 
 def n_plus_1(p: Params) -> float:
+    """(n+1)/(2 pi): albedo ks at the normal."""
     return (p.n + 1.0) / (2.0 * math.pi)
 
 
 def none(p: Params) -> float:
+    """N = 1: Phong 1975, as published."""
     return 1.0
 
 

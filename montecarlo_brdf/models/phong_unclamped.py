@@ -37,10 +37,12 @@ lobe = ("mirror", lambda p: width(p.n))
 
 
 def odd(below: bool) -> float:
+    """The power keeps the sign of r.v."""
     return -1.0 if below else 1.0
 
 
 def even(below: bool) -> float:
+    """|r.v|^n."""
     return 1.0
 
 

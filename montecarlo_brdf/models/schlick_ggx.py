@@ -34,10 +34,12 @@ lobe = ("half vector", lambda p: p.alpha)
 
 
 def direct(p: Params) -> float:
+    """(sqrt(alpha) + 1)^2/8: Karis 2013, eq. 4, for point lights."""
     return (math.sqrt(p.alpha) + 1.0) ** 2 / 8.0
 
 
 def ibl(p: Params) -> float:
+    """alpha/2: Karis 2013, for environments."""
     return 0.5 * p.alpha
 
 

@@ -37,6 +37,8 @@ from montecarlo_brdf.references._truth import sine
 TINY = 1e-300
 # A depends on tan(theta_o) through its square: below this the view is the normal, to 1e-18
 NORMAL_VIEW = 1e-9
+# nodes evaluated together: larger arrays leave the cache and go back to the system every time
+TOGETHER = 4096
 
 
 class Geometry(NamedTuple):
@@ -130,14 +132,18 @@ def slope_albedo(
     parts = 1 + (len(kinks(np.zeros(1))) if kinks else 0)  # panels that share the depth
     n_azimuth, n_slope = factor * (8.0 + 6.0 * np.arcsinh(tan_o)), 24.0 + 4.0 * depth / parts
 
-    def rule(size: float) -> Sum:
-        k, azimuth_weight = azimuths(tan_o, node_count(size * n_azimuth), azimuth_break)
+    def part(k: Array, azimuth_weight: Array, n: int) -> Sum:
         end = np.minimum(horizon(k), reach)
         inner = [np.clip(edge, 0.0, end) for edge in (kinks(k) if kinks else ())]
-        g, weight = slopes(
-            mu_o, k, [np.zeros_like(k), *inner, end], width, node_count(size * n_slope)
-        )
+        g, weight = slopes(mu_o, k, [np.zeros_like(k), *inner, end], width, n)
         density = brdf(g) * g.mu_i * g.h_v * (g.h_n * g.h_n * g.h_n)
         return total(8.0 * azimuth_weight * weight * density)  # twice the half circle
+
+    def rule(size: float) -> Sum:
+        k, weight = azimuths(tan_o, node_count(size * n_azimuth), azimuth_break)
+        n = node_count(size * n_slope)
+        step = max(1, TOGETHER // (n * parts))
+        each = [part(k[i : i + step], weight[i : i + step], n) for i in range(0, len(k), step)]
+        return Sum(sum(s.value for s in each), sum(s.magnitude for s in each))
 
     return converge(rule)

@@ -1,6 +1,9 @@
 """What models there are, as tables and pages of text."""
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -30,6 +33,7 @@ def show_one(model: Model) -> None:
     lines = [model.doc.strip(), "", "parameters: " + (", ".join(ranges(model)) or "none")]
     for category, picks in model.choices.items():
         lines.append(f"choice {category}: {', '.join(picks)} (now {model.picks[category]})")
+        lines += [f"  {pick}: {said}" for pick in picks if (said := said_of(picks[pick]))]
     lines.append(f"sampler: {'its own' if model.sample else 'none of its own'}")
     lines.append(f"reference: {reference_kind(model)}")
     claimed = [p for p in PROPERTIES if p not in model.disclaims]
@@ -39,6 +43,13 @@ def show_one(model: Model) -> None:
     console.print(Text(model.name, style="bold"))
     for line in lines:
         console.print(Text(line), soft_wrap=True)
+
+
+def said_of(option: Any) -> str:
+    """What the docstrings of an option's functions say in their first lines."""
+    functions = option.get("functions", {}).values() if isinstance(option, Mapping) else [option]
+    docs = [(getattr(f, "__doc__", None) or "").strip().partition("\n\n")[0] for f in functions]
+    return " ".join(" ".join(doc.split()) for doc in docs if doc)
 
 
 def first_line(model: Model) -> str:
