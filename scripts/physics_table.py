@@ -162,12 +162,12 @@ def searched(command: str) -> str:
 
 
 def limit(command: str) -> str:
-    """'0.9999215, **1.000127**': A of every case, bold where `A <= 1` is refuted."""
+    """'0.999922, **1.00013**': A of every case, bold where `A <= 1` is refuted."""
     cells = []
     for result in report_of("furnace", "--model", *shlex.split(command)):
         findings = result["findings"]
         for a, bound in zip(findings[::2], findings[1::2], strict=True):
-            text = f"{a['value']:.7g}"
+            text = f"{a['value']:.6g}"
             cells.append(f"**{text}**" if bound["verdict"] in ("fail", "known") else text)
     return ", ".join(cells)
 
