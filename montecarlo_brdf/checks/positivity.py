@@ -25,7 +25,6 @@ QUESTION = "finite and >= 0 everywhere?"
 PROPERTY = "positivity"
 #: how far below zero, relative to the median of |f|, rounding may take f
 ROUNDING = 1e-12
-NEIGHBOURS = 8  # pairs beside a negative value, up to two ulps away in every component
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -113,12 +112,9 @@ def _unexplained(case: Case, p: Any, wo: Any, wi: Any, f: Any) -> Any:
     (low,) = np.nonzero(f < 0.0)
     if not len(low):
         return f
-    rng, point, noise = case.random(NAME, "ulps"), pointwise(case.model, p), np.zeros(len(low))
-    for _ in range(NEIGHBOURS):
-        a, b = (w[low] * (1.0 + 2.0**-52 * rng.integers(-2, 3, (len(low), 3))) for w in (wo, wi))
-        beside = point.f(a, b)
-        noise = np.fmax(noise, np.abs(np.where(np.isfinite(beside), beside, 0.0) - f[low]))
-    f[low[-f[low] <= noise]] = 0.0
+    point, rng = pointwise(case.model, p), case.random(NAME, "ulps")
+    noise = directions.rounding(point.f, wo[low], wi[low], rng)
+    f[low[(-f[low] <= noise) & np.isfinite(noise)]] = 0.0
     return f
 
 
