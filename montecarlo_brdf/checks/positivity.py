@@ -2,9 +2,9 @@
 
 Over edge pairs (theta up to 90 degrees less an ulp, wi = wo, wi = mirror, wi . wo = 0), random
 pairs, pairs along the lobe; for the parameters asked about, some of the interior, and each at the
-ends of its range. A value below zero is excused where rounding explains it: where moving the
-directions by two ulps changes f by as much, or where it is below 1e-12 of the median of |f| over
-the random pairs. (Not of the largest |f|: where that is unbounded it would hide any value.)
+ends of its range. A value below zero counts if it is more than rounding where it was computed:
+1e-12 of the largest |f| between the same polar angles, at any azimuth, or of the median of |f|.
+(Not of the largest |f| at all: where that is unbounded it would hide any value.)
 It cannot see: a wrong value that is finite and positive.
 """
 
@@ -23,8 +23,9 @@ from montecarlo_brdf.integration import scattered
 NAME = "positivity"
 QUESTION = "finite and >= 0 everywhere?"
 PROPERTY = "positivity"
-#: how far below zero, relative to the median of |f|, rounding may take f
+#: how far below zero, relative to |f| around it, rounding may take f
 ROUNDING = 1e-12
+TURNS = 16  # azimuths of wi, the mirror direction's among them
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -39,7 +40,7 @@ def claims(case: Case) -> Iterator[Claim]:
         property=PROPERTY,
     )
     yield ExactClaim(
-        "smallest f / median f",
+        "smallest f / f around it",
         {},
         "at least",
         Reference(0.0, 0.0, "law", "a BRDF is a density of reflected light"),
@@ -86,36 +87,30 @@ def _count_not_finite(case: Case) -> Exact:
 def _smallest(case: Case) -> Exact:
     found = Exact(0.0, points=0)
     for p, wo, wi, f in _values(case):
-        unit = _median(case, p)
-        f = np.where(np.isfinite(f) & (f < 0.0), f, 0.0)
-        f = _unexplained(case, p, wo, wi, f)
-        k = int(np.argmin(f))
+        (low,) = np.nonzero(np.isfinite(f) & (f < 0.0))
+        value = f[low] / _scale(case, p, wo[low], wi[low])
         points = found.points + len(f)
-        if f[k] / unit < found.value:
+        if len(low) and value.min() < found.value:
+            k = low[int(np.argmin(value))]
             where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
             hint = f"f = {f[k]:.6g} at {_name(wo[k], wi[k])}"
-            found = Exact(float(f[k] / unit), 0.0, where, points, hint=hint)
+            found = Exact(float(value.min()), 0.0, where, points, hint=hint)
         found = found._replace(points=points)
     return found
 
 
-def _median(case: Case, p: Any) -> float:
-    """Of |f| over random pairs, those left out where it is 0 or not finite."""
+def _scale(case: Case, p: Any, wo: Any, wi: Any) -> Any:
+    """The largest |f| between the polar angles of each pair, and at least the median of |f|."""
     f = np.abs(pointwise(case.model, p).f(*directions.random_pairs(case.random(NAME, "median"))))
     f = f[np.isfinite(f) & (f > 0.0)]
-    return float(np.median(f)) if len(f) else 1.0
-
-
-def _unexplained(case: Case, p: Any, wo: Any, wi: Any, f: Any) -> Any:
-    """f, with 0 in place of negative values that are as small as what rounding the directions
-    does."""
-    (low,) = np.nonzero(f < 0.0)
-    if not len(low):
-        return f
-    point, rng = pointwise(case.model, p), case.random(NAME, "ulps")
-    noise = directions.rounding(point.f, wo[low], wi[low], rng)
-    f[low[(-f[low] <= noise) & np.isfinite(noise)]] = 0.0
-    return f
+    scale = np.full(len(wo), np.median(f) if len(f) else 1.0)
+    start, sine = np.arctan2(wo[:, 1], wo[:, 0]), np.hypot(wi[:, 0], wi[:, 1])
+    for k in range(TURNS if len(wo) else 0):
+        phi = start + 2.0 * np.pi * k / TURNS
+        turned = np.stack([sine * np.cos(phi), sine * np.sin(phi), wi[:, 2]], axis=-1)
+        f = np.abs(pointwise(case.model, p).f(wo, turned))
+        scale = np.fmax(scale, np.where(np.isfinite(f), f, 0.0))
+    return scale
 
 
 def _name(wo: Any, wi: Any) -> str:
