@@ -14,6 +14,13 @@ from montecarlo_brdf import student
 
 #: No error bar is smaller than rounding: 4 units of the last place of the mean.
 FLOOR = 4.0 * 2.0**-52
+#: Values that differ by less than this, relative to their mean, are one value and its rounding.
+SAME = 1e-12
+#: Draws that differ from the others by their own size, but are fewer than this in a sample, are too
+#: few to tell how often they occur: no error bar is then smaller than HIDDEN of them, so that t
+#: times the bar is at least log(1/level) of them at levels down to 10^-11.
+FEW = 16.0
+HIDDEN = 3.5
 
 
 class Moments(NamedTuple):
@@ -110,12 +117,36 @@ def _estimate(columns: Sequence[tuple[float, ...]], method: str = "") -> Estimat
     mean = math.fsum(means) / count
     spread = math.fsum([(m - mean) * (m - mean) for m in means])
     stderr = math.sqrt(spread / (count * (count - 1))) if count > 1 else math.inf
+    variance = math.fsum(squares) / (count * each) + spread / count
     return Estimate(
         mean,
-        max(stderr, FLOOR * abs(mean)),
+        max(stderr, least_error(mean, variance, count * each)),
         int(count * each),
         means,
-        math.fsum(squares) / (count * each) + spread / count + mean * mean,
+        variance + mean * mean,
         max(largest),
         method,
     )
+
+
+def least_error(mean: float, variance: float, samples: float) -> float:
+    """What no error bar of samples with this mean and variance may go below.
+
+    Rounding; and, where values hardly differ but do, what may hide from so few (`hidden_error`).
+    Equal values hide nothing that any sampling could show: they keep the rounding floor.
+    """
+    rounding = FLOOR * abs(mean)
+    if variance <= SAME**2 * mean * mean:
+        return rounding
+    return max(rounding, hidden_error(abs(mean), variance, samples))
+
+
+def hidden_error(size: float, variance: float, samples: float) -> float:
+    """What events of some size may add to an error while they are too rare to be drawn; 0 where
+    the values vary enough to have shown them.
+
+    Importance sampling of a lobe with a long thin tail gives nearly equal weights and, once in 10^6
+    draws, a weight of 0. An event of probability p stays unseen with probability exp(-p samples),
+    so a mean may be off by its size times log(1/level)/samples.
+    """
+    return HIDDEN * size / samples if variance < FEW * size * size / samples else 0.0

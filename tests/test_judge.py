@@ -3,16 +3,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
 from montecarlo_brdf import student
 from montecarlo_brdf.checks.claim import MeanClaim, Measurement, Reference
 from montecarlo_brdf.integration.estimators import Plan
-from montecarlo_brdf.report import judge
+from montecarlo_brdf.report import mean as judging
 from montecarlo_brdf.report.findings import Finding, Report, Result, worst
-from montecarlo_brdf.report.judge import CONFIRMING_REPLICATES, LEVEL, Opinion, decide, judged
+from montecarlo_brdf.report.judge import LEVEL, decide
 from montecarlo_brdf.report.looks import FIRST_LOOK, GROWTH, looks
+from montecarlo_brdf.report.mean import CONFIRMING_REPLICATES
+from montecarlo_brdf.report.opinions import Opinion, judged
 from montecarlo_brdf.statistics import Estimate
 
 PLAN = Plan(samples=1 << 20)
@@ -90,7 +93,38 @@ def test_a_failure_that_a_fresh_stream_does_not_see_is_inconclusive() -> None:
     assert decide(claim(unlucky), PLAN).verdict == "inconclusive"
 
 
-@pytest.mark.parametrize("points", ["sobol", "independent"])
+def test_of_two_that_refute_only_the_confirmed_one_is_shown() -> None:
+    def measure(plan: Plan) -> list[Measurement]:
+        lucky = Measurement("precise", estimate(1.1 if plan.seed == PLAN.seed else 1.0, 1e-7, plan))
+        return [lucky, Measurement("sure", estimate(1.2, 1e-6, plan))]
+
+    finding = decide(claim(measure), PLAN)
+    assert (finding.verdict, finding.estimator) == ("fail", "sure")
+    assert [e["verdict"] for e in finding.estimators] == ["inconclusive", "fail"]
+
+
+def test_asking_last_does_not_revive_a_refutation_that_was_not_confirmed() -> None:
+    def unlucky(plan: Plan) -> list[Measurement]:
+        return [Measurement("one", estimate(1.1 if plan.seed == PLAN.seed else 1.0, 1e-6, plan))]
+
+    def last(seed: int) -> Measurement:
+        return Measurement("last", estimate(1.0, 1e-6, PLAN))
+
+    finding = decide(replace(claim(unlucky), fallback=last), PLAN)
+    assert (finding.verdict, finding.estimator) == ("pass", "last")
+
+
+@pytest.mark.parametrize(("sure", "verdict"), [(True, "fail"), (False, "inconclusive")])
+def test_what_is_asked_last_refutes_only_twice(sure: bool, verdict: str) -> None:
+    def last(seed: int) -> Measurement:
+        wrong = sure or seed == PLAN.seed
+        return Measurement("last", estimate(1.1 if wrong else 1.0, 1e-6 if wrong else 1.0, PLAN))
+
+    finding = decide(replace(claim(steady(1.0, 10.0)), fallback=last), PLAN)
+    assert finding.verdict == verdict
+
+
+@pytest.mark.parametrize("points", ["sobol", "stratified"])
 def test_confirmation_uses_other_points_more_replicates_and_a_fresh_seed(points: str) -> None:
     plans: list[Plan] = []
 
@@ -152,7 +186,7 @@ def test_all_looks_together_spend_less_than_the_level(monkeypatch: pytest.Monkey
         spent.append(level)
         return judged(claim, measurements, level)
 
-    monkeypatch.setattr(judge, "judged", spy)
+    monkeypatch.setattr(judging, "judged", spy)
     assert decide(claim(steady(1.0, 10.0)), PLAN).verdict == "inconclusive"
     assert len(spent) == len(looks(PLAN.samples)) > 3
     assert math.fsum(spent) < LEVEL

@@ -114,7 +114,8 @@ class MeanClaim:
     reproduce: str = ""
     unit: Mapping[str, float] = field(default_factory=dict)  # what the hint compares the value with
     cause: str | None = None  # the hint where no number tells
-    fallback: Callable[[], Measurement] | None = None  # asked where samples leave the claim open
+    #: asked, for a seed, where samples leave the claim open
+    fallback: Callable[[int], Measurement] | None = None
 
 
 Claim = MeanClaim | ExactClaim | FitClaim | Skip

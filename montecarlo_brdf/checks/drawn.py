@@ -23,6 +23,7 @@ POINTS = 4096
 #: the share of points that may lie on seams of the map, where differences do not exist
 SEAMS = 0.005
 UNIT_TOLERANCE = 1e-6
+JACOBIAN_TOLERANCE = 3e-3
 
 
 def values(case: Case, _: Any) -> Exact:
@@ -129,7 +130,7 @@ def jacobian(case: Case, theta: float) -> Exact:
     w, area = w[above], area[above]
     ratio = functions.pdf(wo, w) * area
     value = float(np.quantile(np.abs(ratio - 1.0), 1.0 - SEAMS))
-    hint = _ratio(functions.pdf, area, wo, w) if value > 1e-3 else None
+    hint = _ratio(functions.pdf, area, wo, w) if value > JACOBIAN_TOLERANCE else None
     return Exact(value, points=len(w), hint=hint)
 
 

@@ -53,7 +53,7 @@ def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, i
         property=PROPERTY,
         unit=furnace.units(case.model, p),
         cause=_cause(space, spot, value),
-        fallback=functools.partial(truth.deterministic, case.model, p, fixed, reverse),
+        fallback=functools.partial(truth.deterministic, case.model, p, fixed, reverse=reverse),
     )
 
 

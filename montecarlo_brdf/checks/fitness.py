@@ -51,8 +51,10 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
     """
     if e.mean == 0.0 and sight.highest > 0.0 and sampler in SCALE:
         return f"a lobe that {sampler} sampling did not hit once in {e.samples} samples"
-    if sampler not in SCALE or not e.mean > 0.0:
+    if not e.mean > 0.0:
         return None
+    if sampler not in SCALE:
+        return _few(sampler, e, e.second_moment)
     if not moment_is_finite(2, sampler, sight.exponent):
         return f"infinite variance under {sampler} sampling: f grows like mu^-{sight.exponent:.2f}"
     if not moment_is_finite(4, sampler, sight.exponent):
@@ -61,7 +63,14 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
     if expected > LARGEST_SHARE * e.samples * e.mean:
         need = expected / (LARGEST_SHARE * e.mean)
         return f"a lobe that {sampler} sampling hardly hits: needs about {need:.0e} samples"
-    squares = max(e.second_moment, second.mean if second else 0.0)
+    return _few(sampler, e, max(e.second_moment, second.mean if second else 0.0))
+
+
+def _few(sampler: str, e: Estimate, squares: float) -> str | None:
+    """Why so few samples carry the mean that its error bar must not be believed, or None."""
+    if e.largest > LARGEST_SHARE * e.samples * e.mean:
+        share = e.largest / (e.samples * e.mean)
+        return f"one sample holds {share:.0%} of the total under {sampler} sampling"
     effective = e.samples * e.mean**2 / squares
     if effective < FEWEST:
         need = e.samples * FEWEST / effective

@@ -80,7 +80,7 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
 
 def _fallback(
     case: Case, one: Any, theta: float, expected: Reference | None
-) -> Callable[[], Measurement] | None:
+) -> Callable[[int], Measurement] | None:
     """What is asked where samples leave "A equals its reference" open: a quadrature of f; where
     that is the reference, which says nothing about itself, draws that follow the lobe."""
     model, wo = case.model, case.wo(theta)
@@ -88,7 +88,7 @@ def _fallback(
         return functools.partial(truth.deterministic, model, one, wo)
     from montecarlo_brdf.checks import in_slopes
 
-    return functools.partial(in_slopes.albedo, model, one, wo, case.seed)
+    return functools.partial(in_slopes.albedo, model, one, wo)
 
 
 def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:

@@ -12,6 +12,7 @@ lobe of any width into a smooth function. dw = 4 (h.v) cos^3(theta_h) t dt dphi 
 
 from __future__ import annotations
 
+import functools
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -92,6 +93,7 @@ def scale_of(wo: Array, wi: Array) -> float:
     return float(min(0.3 * wide, 3.0 * sharp))  # differ where a sharp lobe is drawn now and then
 
 
+@functools.lru_cache(maxsize=8)
 def grid(nx: int, nb: int) -> tuple[Array, Array, Array]:
     """Gauss-Legendre in x, midpoints in b: nodes and weights, flattened."""
     node, weight = np.polynomial.legendre.leggauss(nx)

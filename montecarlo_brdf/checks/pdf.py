@@ -29,12 +29,11 @@ from montecarlo_brdf.checks.claim import (
 from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
 from montecarlo_brdf.checks.truth import lobe_scale
 from montecarlo_brdf.integration.estimators import Plan, estimates
-from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.statistics import Estimate, hidden_error
 
 NAME = "pdf"
 QUESTION = "does the pdf integrate to 1, is it the sampler's Jacobian, is the weight f cos/pdf?"
 PROPERTY = "pdf"
-JACOBIAN_TOLERANCE = 3e-3
 #: of the mass; the edge of the rejected region limits how fast the rejected fraction converges
 MASS_TOLERANCE = 5e-4
 
@@ -64,7 +63,7 @@ def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
     if drawn.chooses(case, theta):
         yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
     else:
-        yield _claim(case, theta, "|pdf Jacobian - 1|", JACOBIAN_TOLERANCE, drawn.jacobian)
+        yield _claim(case, theta, "|pdf Jacobian - 1|", drawn.JACOBIAN_TOLERANCE, drawn.jacobian)
     if np.isfinite(drawn.draws(case, theta)[2]).any():
         yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", drawn.UNIT_TOLERANCE, drawn.weight)
 
@@ -115,10 +114,10 @@ def density_integral(case_model: Any, one: Any, wo: Any) -> Any:
     return integrate(lambda wi: functions.pdf(direction, wi), coordinates)
 
 
-def _sampled_mass(case: Case, theta: float) -> Measurement:
+def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:
     """The same where a density with steps is more than the quadrature resolves."""
-    found = in_slopes.mass(case.model, case.one, case.wo(theta), case.seed)
-    rejected = _rejected(case, theta, Plan(samples=found.estimate.samples, seed=case.seed))
+    found = in_slopes.mass(case.model, case.one, case.wo(theta), seed)
+    rejected = _rejected(case, theta, Plan(samples=found.estimate.samples, seed=seed))
     stderr = math.hypot(found.estimate.stderr, rejected.stderr)
     whole = found.estimate._replace(mean=found.estimate.mean + rejected.mean, stderr=stderr)
     return found._replace(estimate=whole)
@@ -137,7 +136,9 @@ def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     unfit = None
     if not integral.error <= 0.25 * case.tolerated(MASS_TOLERANCE) + 1e-9:
         unfit = f"the quadrature of pdf resolves only {integral.error:.1e}"
+    variance = rejected.second_moment - rejected.mean**2
+    unseen = hidden_error(1.0, variance, rejected.samples)
     whole = rejected._replace(
-        mean=rejected.mean + integral.value, stderr=max(rejected.stderr, integral.error)
+        mean=rejected.mean + integral.value, stderr=max(rejected.stderr, unseen, integral.error)
     )
     return [Measurement("quadrature", whole, unfit)]

@@ -84,12 +84,12 @@ def claims(case: Case) -> Iterator[Claim]:
             )
 
 
-def _fallback(case: Case, theta: float, name: str) -> Callable[[], Measurement] | None:
+def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measurement] | None:
     """Draws that follow the lobe, where the model has no sampler that does."""
     if samplers_of(case.model)[-1] == "own":
         return None
     place = case.one, case.wo(theta), either_sky, WHICH[name]
-    return functools.partial(in_slopes.radiance, case.model, *place, case.seed)
+    return functools.partial(in_slopes.radiance, case.model, *place)
 
 
 def _expected(case: Case, theta: float, sky: Any) -> Reference | None:

@@ -77,8 +77,10 @@ def coordinates(model: Model, one: Any, wo: Any) -> Any:
     return Coordinates(wo, lobe_scale(model, one, wo))
 
 
-def deterministic(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> Measurement:
-    """The same as an estimator beside those that sample."""
+def deterministic(
+    model: Model, one: Any, fixed: Vec, seed: int = 0, *, reverse: bool = False
+) -> Measurement:
+    """The same as an estimator beside those that sample; the seed changes nothing."""
     value, error = quadrature(model, one, fixed, reverse)
     e = Estimate(value, error, 0, (value, value), value * value, value)
     unfit = None if error <= 1e-5 * abs(value) else f"the quadrature resolves only {error:.0e}"
@@ -94,10 +96,16 @@ def lobe_scale(model: Model, one: Any, wo: Any) -> float:
 
     if model.sample is None:
         return _probed_scale(model, one, wo, wo)
-    u = np.random.default_rng(PILOT).random((PILOT, 3))
-    drawn, _ = pointwise(model, one).sample(wo, u)
+    drawn, _ = pointwise(model, one).sample(wo, _pilot())
     drawn = drawn[np.isfinite(drawn).all(axis=1)]
     return scale_of(wo, drawn[drawn[:, 2] > 0.0])
+
+
+@functools.cache
+def _pilot() -> Any:
+    import numpy as np
+
+    return np.random.default_rng(PILOT).random((PILOT, 3))
 
 
 def _probed_scale(model: Model, one: Any, wo: Any, centre: Any) -> float:

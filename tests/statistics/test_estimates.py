@@ -8,7 +8,7 @@ import pytest
 
 from montecarlo_brdf import student
 from montecarlo_brdf.sampling.streams import stream
-from montecarlo_brdf.statistics import FLOOR, Moments, estimate, merged, with_error
+from montecarlo_brdf.statistics import FLOOR, HIDDEN, Moments, estimate, merged, with_error
 
 PRINTED = [
     (0.688993, 0.00076, "0.68899(76)"),
@@ -72,6 +72,22 @@ def test_no_spread_leaves_the_floor() -> None:
     e = estimate([Moments(8, 0.8, 0.0, 0.8)] * 16)
     assert e.stderr == FLOOR * 0.8 > 0.0
     assert estimate([Moments(8, 0.0, 0.0, 0.0)] * 16).stderr == 0.0  # zero is exact
+
+
+def test_nearly_equal_values_do_not_make_a_small_error_bar() -> None:
+    """What is drawn once in 10^6 is not seen in 128 samples, and may change the mean by 1/128."""
+    close = [Moments(8, 0.8 * (1.0 + 1e-6 * (k % 2)), 1e-12, 0.8) for k in range(16)]
+    assert estimate(close).stderr == HIDDEN * estimate(close).mean / 128
+    apart = [Moments(8, 0.8 * (1.0 + 0.5 * (k % 2)), 8.0, 0.8) for k in range(16)]
+    assert estimate(apart).stderr == pytest.approx(0.2 / math.sqrt(15.0), rel=1e-12)
+
+
+def test_the_least_error_bar_covers_what_can_hide() -> None:
+    """At any level and for 16 or 64 replicates, t HIDDEN/N >= log(1/level)/N: the probability at
+    which an event stays unseen in N draws."""
+    for dof in (15, 63):
+        for level in (0.05, 1e-3, 1e-6, 1e-9, 1e-11):
+            assert HIDDEN * student.quantile(level / 2.0, dof) >= -math.log(level)
 
 
 def test_one_replicate_has_no_error_bar() -> None:

@@ -1,0 +1,133 @@
+"""Counting directions in cells of equal probability, in compiled code: drawn or given ones.
+
+Cells are cut by a density tabulated over coordinates that follow a lobe (checks.cells has tables
+and coordinates in NumPy): COLUMNS of equal probability in azimuth, each cut into ROWS of equal
+probability along the slope. What a call knows of them stands in `reals` from place `at` on:
+wo (3), turn (2), smallest slope, mass, cumulated marginal (nb + 1), and the cumulated conditionals
+(nb, nx + 1), each from 0 to 1.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.bits import u64
+from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.integration import parameters
+from montecarlo_brdf.integration.pointwise import Listing
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.independent import independent_axis
+from montecarlo_brdf.special import log1p
+
+PARAMETERS: Any = None
+SAMPLE: Any = None
+
+ROWS, COLUMNS = 12, 16
+FIXED = 7  # numbers before the tables
+MOST = 1 << 16  # draws of a call: Ctrl-C waits for it to end
+TWO_PI = 2.0 * math.pi
+
+
+class Cut(NamedTuple):
+    """The cells: size of the tables, and their numbers as `reals` holds them."""
+
+    nx: int
+    nb: int
+    numbers: Any
+
+
+def cell_of(w: Any, reals: Any, at: int, nx: int, nb: int) -> int:
+    """The cell of a direction above the horizon."""
+    hx, hy, hz = w[0] + reals[at], w[1] + reals[at + 1], w[2] + reals[at + 2]
+    along = hx * reals[at + 3] + hy * reals[at + 4]
+    across = hy * reals[at + 3] - hx * reals[at + 4]
+    slope = math.sqrt(along * along + across * across)
+    sine = reals[at] * reals[at + 3] + reals[at + 1] * reals[at + 4]
+    k = sine / reals[at + 2] * (along / slope if slope > 0.0 else 1.0)
+    root = abs(k) + math.sqrt(k * k + 1.0)
+    horizon = (root if k >= 0.0 else 1.0 / root) / reals[at + 5]
+    steep = slope / hz / reals[at + 5]
+    x = min(log1p(steep * steep) / log1p(horizon * horizon), 1.0) * nx
+    b = math.atan2(across, along) / TWO_PI
+    b = (b + 1.0 if b < 0.0 else b) * nb
+    i, j = min(int(x), nx - 1), min(int(b), nb - 1)
+    marginal = at + FIXED + j
+    share = reals[marginal] + (b - j) * (reals[marginal + 1] - reals[marginal])
+    below = at + FIXED + nb + 1 + j * (nx + 1) + i
+    inside = reals[below] + (x - i) * (reals[below + 1] - reals[below])
+    return part(share / reals[at + 6], COLUMNS) * ROWS + part(inside, ROWS)
+
+
+def part(share: float, n: int) -> int:
+    """Which of n equal parts of [0, 1] a share lies in."""
+    return max(0, min(int(share * n), n - 1))
+
+
+def counts(ints: Any, reals: Any, out: Any) -> None:
+    """Count draws [start, start + n) of a stream into out; its last place is for rejected ones.
+
+    ints = (key, start, n, nx, nb, place of the cells).
+    """
+    p = PARAMETERS(reals)[0]
+    at = ints[5]
+    wo = (reals[at], reals[at + 1], reals[at + 2])
+    key = u64(ints[0])
+    for i in range(ints[1], ints[1] + ints[2]):
+        u = (
+            independent_axis(key, u64(i), u64(0)),
+            independent_axis(key, u64(i), u64(1)),
+            independent_axis(key, u64(i), u64(2)),
+        )
+        w = SAMPLE(wo, u, p)
+        if w[2] > 0.0 and abs(w[0]) < math.inf and abs(w[1]) < math.inf and w[2] < math.inf:
+            out[cell_of((w[0], w[1], w[2]), reals, at, ints[3], ints[4])] += 1.0
+        else:
+            out[ROWS * COLUMNS] += 1.0
+
+
+def places(ints: Any, reals: Any, out: Any) -> None:
+    """out[j] = the cell of the j-th given direction; ints = (place of the directions, n, nx, nb,
+    place of the cells)."""
+    for j in range(ints[1]):
+        at = ints[0] + 3 * j
+        w = (reals[at], reals[at + 1], reals[at + 2])
+        out[j] = float(cell_of(w, reals, ints[4], ints[2], ints[3]))
+
+
+def drawn(model: Model, p: Any, cut: Cut, key: int, samples: int) -> Any:
+    """How many draws of the model's sampler lie in each cell, and last how many were rejected."""
+    import numpy as np
+
+    layout, numbers = parameters.pack([model.prepared(p)], 0)
+    reals = np.concatenate([numbers, cut.numbers])
+    out = np.zeros(ROWS * COLUMNS + 1)
+    signed = key - (1 << 64) if key >> 63 else key
+    for start in range(0, samples, MOST):
+        n = min(MOST, samples - start)
+        ints = (signed, start, n, cut.nx, cut.nb, len(numbers))
+        _run(model, Listing(counts, {"SAMPLE": model.sample}, layout), ints, reals, out)
+    return out
+
+
+def placed(model: Model, p: Any, cut: Cut, w: Any) -> Any:
+    """The cells of directions (n, 3) above the horizon."""
+    import numpy as np
+
+    layout, _ = parameters.pack([model.prepared(p)], 0)
+    reals = np.concatenate([cut.numbers, np.ravel(w)])
+    out = np.zeros(len(w))
+    ints = (len(cut.numbers), len(w), cut.nx, cut.nb, 0)
+    _run(model, Listing(places, {}, layout), ints, reals, out)
+    return out.astype(int)
+
+
+def _run(model: Model, listing: Listing, numbers: tuple[int, ...], reals: Any, out: Any) -> None:
+    import numpy as np
+
+    from montecarlo_brdf.integration.estimators import compiled
+
+    ints = np.array(numbers, dtype=np.int64)
+    kernel = compiled(model.name, listing)
+    if kernel(ints.ctypes.data, reals.ctypes.data, out.ctypes.data) != 0:
+        raise ModelError(f"model {model.name} raised an exception while it was sampled")

@@ -1,0 +1,95 @@
+"""What every estimator says of a mean at one look, and what that makes together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from montecarlo_brdf import student
+from montecarlo_brdf.checks.claim import MeanClaim, Measurement, Reference
+from montecarlo_brdf.report.looks import beyond
+
+#: how often a deviation of the size `resolves` may escape
+ESCAPES = 0.05
+
+
+class Opinion(NamedTuple):
+    """What one estimator says of a claim at one look."""
+
+    measurement: Measurement
+    half_width: float
+    verdict: str
+
+
+def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> list[Opinion]:
+    """Every estimator's opinion; the level is shared by those that are fit."""
+    fit = [m for m in measurements if not m.unfit]
+    each = level / max(1, len(fit))
+    best = min(fit, key=lambda m: m.half_width(each), default=None)
+    opinions = []
+    for m in measurements:
+        half = m.half_width(each)
+        verdict = "unfit" if m.unfit else _verdict(claim, m, best, half, each)
+        opinions.append(Opinion(m, half, verdict))
+    if claim.expected is None and sum(o.verdict == "pass" for o in opinions) < 2:
+        # one estimator alone agrees with itself
+        opinions = changed(opinions, lambda o: o.verdict == "pass", "inconclusive")
+    if claim.bound == "at most" and best is not None:
+        # a bound is decided by the most precise estimator; the others only speak up to refute
+        quiet = ("unfit", "fail")
+        opinions = changed(
+            opinions, lambda o: o.measurement is not best and o.verdict not in quiet, "pass"
+        )
+    return opinions
+
+
+def changed(opinions: list[Opinion], which: Callable[[Opinion], bool], to: str) -> list[Opinion]:
+    """The opinions, with another verdict for some."""
+    return [o._replace(verdict=to) if which(o) else o for o in opinions]
+
+
+def _verdict(
+    claim: MeanClaim, m: Measurement, best: Measurement | None, half: float, level: float
+) -> str:
+    value, expected = m.estimate.mean, claim.expected
+    if not math.isfinite(value):
+        return "fail"
+    if expected is None:
+        if best is None or m is best:
+            return "pass"
+        expected = Reference(best.estimate.mean, best.half_width(level), "", "")
+    slack = half + expected.error
+    over = value - expected.value
+    over = over if claim.bound == "at most" else abs(over)
+    return "pass" if over + slack <= claim.tolerance else beyond(over, slack, claim.tolerance)
+
+
+def overall(opinions: list[Opinion]) -> str:
+    """Refuted by any, else held by those that resolve the tolerance, else inconclusive."""
+    verdicts = {o.verdict for o in opinions}
+    if "fail" in verdicts:
+        return "fail"
+    return "pass" if "pass" in verdicts else "inconclusive"
+
+
+def telling(opinions: list[Opinion]) -> Opinion:
+    """The opinion that a finding shows: one that refutes, else the most precise that decided.
+
+    Samples come before a quadrature: its value is shown where they leave the claim open.
+    """
+    order = {"fail": 0, "pass": 1, "inconclusive": 2, "unfit": 3}
+
+    def rank(o: Opinion) -> tuple[int, bool, float]:
+        return order[o.verdict], o.measurement.bound is not None, o.half_width
+
+    return min(opinions, key=rank)
+
+
+def resolves(claim: MeanClaim, opinion: Opinion) -> float:
+    """The deviation that a FAIL at this look would have caught with probability 95 %."""
+    e = opinion.measurement.estimate
+    known = claim.tolerance + opinion.half_width + (claim.expected.error if claim.expected else 0.0)
+    if opinion.measurement.bound is not None:
+        return known
+    return known + student.quantile(ESCAPES, e.dof) * e.stderr if e.dof > 0 else math.inf

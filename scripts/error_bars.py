@@ -1,0 +1,172 @@
+"""Coverage of error bars: how often 95 % intervals hold the truth, for every point set and sampler.
+
+Light-tailed cases, 10,000 runs each: coverage of the 95 % and the 99.99 % interval, and whether
+standardised errors follow Student's t (Kolmogorov-Smirnov). Then cases where error bars are not
+honest, with what the tool does about them: calls the estimator unfit, widens the bar, or confirms.
+
+    python scripts/error_bars.py [--runs 10000]
+"""
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import replicates
+from environment import describe
+from false_alarms import subject
+from scipy import stats
+
+import montecarlo_brdf as mb
+from montecarlo_brdf.checks import fitness, truth
+from montecarlo_brdf.integration.estimators import Plan, estimates, integrand, integrand_name, query
+from montecarlo_brdf.report.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
+from montecarlo_brdf.vectors import from_degrees
+
+TARGET = Path(__file__).parent / "results" / "error_bars.json"
+POINTS = ("independent", "stratified", "sobol", "lattice")
+REPLICATES = 16
+SIZES = (1024, 256, 64)  # samples of a replicate: the first that the reference can judge
+SHARPNESS = 0.02  # of a standard error
+HONEST = (
+    ("lambert", {"albedo": 0.8}, 60.0, "uniform"),
+    ("oren_nayar", {"sigma": 0.5}, 50.0, "uniform"),
+    ("oren_nayar", {"sigma": 0.5}, 50.0, "cosine"),
+    ("ggx", {"alpha": 0.5}, 40.0, "cosine"),
+    ("ggx", {"alpha": 0.3}, 50.0, "own"),
+    ("phong", {"n": 32.0}, 60.0, "own"),
+    ("ggx", {"alpha": 0.3}, 60.0, "half_vector"),
+    ("ggx", {"alpha": 0.05}, 80.0, "half_vector"),
+    ("phong", {"n": 32.0}, 30.0, "mirror"),
+    ("oren_nayar", {"sigma": 0.5}, 60.0, "panels"),
+)
+#: model, parameters, angle, sampler, point set, samples of a replicate, what is wrong with it
+DISHONEST = (
+    ("ggx", {"alpha": 0.001}, 60.0, "cosine", "sobol", 1024, "a lobe that is never hit"),
+    ("ggx", {"alpha": 0.02}, 60.0, "cosine", "independent", 1024, "a lobe that is seldom hit"),
+    ("minnaert", {"k": 0.0}, 60.0, "cosine", "independent", 1024, "infinite variance"),
+    ("ggx", {"alpha": 0.001}, 0.0, "own", "sobol", 1024, "a tail too rare to be drawn"),
+    ("ggx", {"alpha": 0.01}, 0.0, "own", "independent", 1024, "a tail that is seldom drawn"),
+    ("ggx", {"alpha": 0.1}, 75.0, "half_vector", "lattice", 32, "one dominant mode of the lattice"),
+)
+
+
+class Asked(NamedTuple):
+    """A case, its question and its truth."""
+
+    model: Any
+    one: Any
+    theta: float
+    sampler: str
+    question: replicates.Question
+    expected: float
+    error: float
+
+
+def asked(name: str, parameters: dict[str, float], theta: float, sampler: str) -> Asked:
+    """The albedo of a case by one sampler."""
+    model = mb.load(name)
+    one = model.parameters(**parameters)
+    known = truth.albedo(model, one, theta)
+    assert known
+    function = integrand(integrand_name(model, "albedo", sampler))
+    wo = query(model, one, from_degrees(theta))
+    q = replicates.Question(subject(model, one), wo, [function], ("coverage", sampler))
+    return Asked(model, one, theta, sampler, q, known.value, known.error)
+
+
+def honest(a: Asked, points: str, runs: int) -> dict[str, Any]:
+    """Coverage of `runs` estimates, at the largest size that the reference can judge."""
+    for each in SIZES:
+        rows = replicates.means(a.question, points, runs * REPLICATES, each=each)[0]
+        mean, error = replicates.estimates(rows, REPLICATES, each)
+        if a.error < SHARPNESS * np.median(error):
+            break
+    z = (mean - a.expected) / error
+    u = stats.t.cdf(z, REPLICATES - 1)
+    return {
+        "points": points,
+        **_named(a),
+        "samples": each * REPLICATES,
+        "runs": len(z),
+        "relative stderr": float(np.median(error) / abs(a.expected)),
+        **covered(z, REPLICATES),
+        "Student's t, p": float(stats.kstest(u, "uniform").pvalue),
+        "floor active": not replicates.continuous(rows, REPLICATES, each),
+        "reference resolves": bool(a.error < SHARPNESS * np.median(error)),
+    }
+
+
+def _named(a: Asked) -> dict[str, Any]:
+    changed = ", ".join(f"{k}={v:g}" for k, v in a.one._asdict().items())
+    return {"sampler": a.sampler, "case": f"{a.model.name}({changed}), {a.theta:g} deg"}
+
+
+def covered(z: Any, many: int) -> dict[str, float]:
+    """Shares of standardised errors inside the 95 % and the 99.99 % interval."""
+    t = [stats.t.isf(miss / 2.0, many - 1) for miss in (0.05, 1e-4)]
+    return {"95 %": float(np.mean(np.abs(z) <= t[0])), "99.99 %": float(np.mean(np.abs(z) <= t[1]))}
+
+
+def dishonest(a: Asked, points: str, each: int, flaw: str, runs: int) -> dict[str, Any]:
+    """Coverage of the bare spread, and what becomes of such an estimate in a verdict."""
+    rows = replicates.means(a.question, points, runs * REPLICATES, each=each)[0]
+    groups = rows[0][: runs * REPLICATES].reshape(-1, REPLICATES)
+    spread = groups.std(axis=1, ddof=1) / np.sqrt(REPLICATES)
+    z = (groups.mean(axis=1) - a.expected) / np.maximum(spread, 1e-300)
+    mean, error = replicates.estimates(rows, REPLICATES, each)
+    return {
+        "points": points,
+        **_named(a),
+        "samples": each * REPLICATES,
+        "flaw": flaw,
+        "bare spread": covered(z, REPLICATES),
+        "as reported": covered((mean - a.expected) / error, REPLICATES),
+        "confirmation": confirmation(a, each, runs),
+        "not used because": unfit(a, points),
+    }
+
+
+def confirmation(a: Asked, each: int, runs: int) -> dict[str, float]:
+    """Coverage of what must agree before anything fails: 64 replicates of jittered points."""
+    many = CONFIRMING_REPLICATES
+    rows = replicates.means(a.question, CONFIRMING_POINTS, runs // 4 * many, each=each)[0]
+    mean, error = replicates.estimates(rows, many, each)
+    return covered((mean - a.expected) / error, many)
+
+
+def unfit(a: Asked, points: str) -> str | None:
+    """What the judge says of the estimator at its first look."""
+    wo = from_degrees(a.theta)
+    names = [integrand_name(a.model, "albedo", a.sampler)]
+    both = a.sampler in fitness.SCALE and a.model.sample and a.model.pdf
+    names += [f"second_{a.sampler}"] if both else []
+    row = estimates(a.model, a.one, wo, names, Plan(points, 1 << 14), ("coverage",))[0]
+    sight = fitness.look(a.model, a.model.prepared(a.one), wo)
+    return fitness.reason_unfit(a.sampler, row[0], sight, row[1] if both else None)
+
+
+def main() -> None:
+    """Measure all cases and write the result."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--runs", type=int, default=10_000)
+    runs, started = parser.parse_args().runs, time.process_time()
+    table = []
+    for case in HONEST:
+        for points in POINTS:
+            table.append(honest(asked(*case), points, runs))
+            print(*table[-1].values(), flush=True)
+    worse = []
+    for *rest, points, each, flaw in DISHONEST:
+        worse.append(dishonest(asked(*rest), points, each, flaw, runs))
+        print(*worse[-1].values(), flush=True)
+    seconds = round(time.process_time() - started, 1)
+    result = {**describe(), "processor seconds": seconds, "honest": table, "dishonest": worse}
+    TARGET.write_text(json.dumps(result, indent=1, allow_nan=False))
+
+
+if __name__ == "__main__":
+    main()
