@@ -2,15 +2,17 @@
 
 Light-tailed cases, 10,000 runs each: coverage of the 95 % and the 99.99 % interval, and whether
 standardised errors follow Student's t (Kolmogorov-Smirnov). Then cases where error bars are not
-honest, with what the tool does about them: calls the estimator unfit, widens the bar, or confirms.
+honest (2,000 runs each), with what the tool does about them: calls the estimator unfit, widens the
+bar, or confirms.
 
     python scripts/error_bars.py [--runs 10000]
+
+Resumable: rows that scripts/results/error_bars.json holds are not measured again.
 """
 from __future__ import annotations
 
 import argparse
 import json
-import time
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -122,6 +124,7 @@ def dishonest(a: Asked, points: str, each: int, flaw: str, runs: int) -> dict[st
         "points": points,
         **_named(a),
         "samples": each * REPLICATES,
+        "runs": runs,
         "flaw": flaw,
         "bare spread": covered(z, REPLICATES),
         "as reported": covered((mean - a.expected) / error, REPLICATES),
@@ -149,23 +152,40 @@ def unfit(a: Asked, points: str) -> str | None:
     return fitness.reason_unfit(a.sampler, row[0], sight, row[1] if both else None)
 
 
+def recorded() -> dict[str, Any]:
+    """What there is already."""
+    found: dict[str, Any] = json.loads(TARGET.read_text()) if TARGET.exists() else {}
+    return found
+
+
+def record(kind: str, row: dict[str, Any]) -> None:
+    """Add a row."""
+    result = recorded()
+    result.setdefault(kind, []).append(row)
+    TARGET.write_text(json.dumps({**result, **describe()}, indent=1, allow_nan=False))
+    print(*row.values(), flush=True)
+
+
+def known(kind: str, a: Asked, points: str) -> bool:
+    """Whether a row is recorded."""
+    name = {"points": points, **_named(a)}
+    return any(name.items() <= row.items() for row in recorded().get(kind, []))
+
+
 def main() -> None:
-    """Measure all cases and write the result."""
+    """Measure what is not recorded yet."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=10_000)
-    runs, started = parser.parse_args().runs, time.process_time()
-    table = []
+    runs = parser.parse_args().runs
+    for *rest, points, each, flaw in DISHONEST:
+        a = asked(*rest)
+        if not known("dishonest", a, points):
+            record("dishonest", dishonest(a, points, each, flaw, min(runs, 2000)))
     for case in HONEST:
         for points in POINTS:
-            table.append(honest(asked(*case), points, runs))
-            print(*table[-1].values(), flush=True)
-    worse = []
-    for *rest, points, each, flaw in DISHONEST:
-        worse.append(dishonest(asked(*rest), points, each, flaw, runs))
-        print(*worse[-1].values(), flush=True)
-    seconds = round(time.process_time() - started, 1)
-    result = {**describe(), "processor seconds": seconds, "honest": table, "dishonest": worse}
-    TARGET.write_text(json.dumps(result, indent=1, allow_nan=False))
+            a = asked(*case)
+            if not known("honest", a, points):
+                record("honest", honest(a, points, runs))
 
 
 if __name__ == "__main__":

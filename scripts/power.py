@@ -7,6 +7,8 @@ empty tables. Times are of one processor, in process, compiled.
 
     python scripts/power.py [--runs 3000]
     python scripts/power.py --times --runs 100
+
+Resumable: subjects that scripts/results/power.json holds are not run again.
 """
 from __future__ import annotations
 
@@ -106,15 +108,29 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=3000)
     parser.add_argument("--times", action="store_true", help="for a quiet machine and few runs")
+    parser.add_argument("--part", default="0/1", help="which of how many processes this is")
     options = parser.parse_args()
-    result = json.loads(TARGET.read_text()) if TARGET.exists() else {}
-    for name in subjects():
-        row = measured(name, options.runs)
-        print(name, row, flush=True)
-        times = row.pop("times")
-        part, what = ("times", times) if options.times else ("subjects", row)
-        result.setdefault(part, {})[name] = what
-        TARGET.write_text(json.dumps({**result, **describe()}, indent=1))
+    part, parts = map(int, options.part.split("/"))
+    for name in list(subjects())[part::parts]:
+        done = recorded().get("subjects", {}).get(name, {})
+        if options.times or done.get("runs") != options.runs:
+            row = measured(name, options.runs)
+            print(name, row, flush=True)
+            times = row.pop("times")
+            record("times" if options.times else "subjects", name, times if options.times else row)
+
+
+def recorded() -> dict[str, Any]:
+    """What there is already."""
+    found: dict[str, Any] = json.loads(TARGET.read_text()) if TARGET.exists() else {}
+    return found
+
+
+def record(kind: str, name: str, row: dict[str, Any]) -> None:
+    """Add a row."""
+    result = recorded()
+    result.setdefault(kind, {})[name] = row
+    TARGET.write_text(json.dumps({**result, **describe()}, indent=1))
 
 
 if __name__ == "__main__":
