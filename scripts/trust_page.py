@@ -56,7 +56,7 @@ def false_alarms() -> Iterator[str]:
             rows.append([name, f"{r['p-values']:,}", *cells, "yes" if r["inside"] else "**no**"])
     yield from table("p-values of | number | < 1e-3 | < 1e-4 | < 1e-5 | inside", rows)
     yield (
-        "Sixteen shifts of a lattice have heavier tails than Student's t where one of its modes "
+        "Sixteen shifts of a lattice can have heavier tails than Student's t where one of its modes "
         "dominates: their p-values alone would refute too often. No verdict rests on them alone: "
         "`run` looks at Sobol points, and nothing fails that 64 replicates of jittered points do "
         "not refute again (`confirmations`).\n"
@@ -142,8 +142,9 @@ def power() -> Iterator[str]:
     rows = []
     for name, r in study["subjects"].items():
         counts = ", ".join(f"{v} {k}" for k, v in r["verdicts"].items())
-        times = study.get("times", {}).get(name, {})
-        rows.append([name, f"{r['runs']:,}", counts, f"{times.get('median', float('nan')):.1f}"])
+        times = study.get("times", {}).get(name)
+        spent = f"{times['median']:.1f}" if times else "not timed"
+        rows.append([name, f"{r['runs']:,}", counts, spent])
     yield from table("run | runs | verdicts | ms per run", rows)
     if other:
         yield (
