@@ -56,8 +56,9 @@ def false_alarms() -> Iterator[str]:
             rows.append([name, f"{r['p-values']:,}", *cells, "yes" if r["inside"] else "**no**"])
     yield from table("p-values of | number | < 1e-3 | < 1e-4 | < 1e-5 | inside", rows)
     yield (
-        "Sixteen shifts of a lattice can have heavier tails than Student's t where one of its modes "
-        "dominates: their p-values alone would refute too often. No verdict rests on them alone: "
+        "Sixteen shifts of a lattice can have heavier tails than Student's t where one of its "
+        "modes dominates: their p-values alone would refute too often. No verdict rests on them "
+        "alone: "
         "`run` looks at Sobol points, and nothing fails that 64 replicates of jittered points do "
         "not refute again (`confirmations`).\n"
     )

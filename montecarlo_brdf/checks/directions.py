@@ -28,6 +28,8 @@ SCATTERED = 100_000  # pairs with parameters of their own
 PREPARED = 32  # different ones where the model prepares them
 MIRROR = np.array([-1.0, -1.0, 1.0])
 NEIGHBOURS = 8
+TURNS = 16  # azimuths of wi, the mirror direction's among them
+ROUNDING = 1e-12  # of |f| between the same polar angles: what is smaller is rounding
 SUSPECTS = 256  # pairs at a time that rounding may explain
 HIGHEST_COSINE = 1e-6  # ordinary random directions keep clear of the horizon by this
 
@@ -120,17 +122,31 @@ def rounding(f: Any, wo: Array, wi: Array, rng: Any) -> Array:
     return noise
 
 
+def around(f: Any, wo: Array, wi: Array) -> Array:
+    """The largest |f| between the polar angles of each pair, at any azimuth."""
+    found, sine = np.zeros(len(wo)), np.hypot(wi[:, 0], wi[:, 1])
+    start = np.arctan2(wo[:, 1], wo[:, 0])
+    for k in range(TURNS if len(wo) else 0):
+        phi = start + 2.0 * np.pi * k / TURNS
+        values = np.abs(f(wo, np.stack([sine * np.cos(phi), sine * np.sin(phi), wi[:, 2]], -1)))
+        found = np.fmax(found, np.where(np.isfinite(values), values, 0.0))
+    return found
+
+
 def unexplained(
     relative: Array, difference: Array, tolerance: float, f: Any, wo: Array, wi: Array, rng: Any
 ) -> Array:
-    """`relative`, with 0 where rounding of the directions explains the difference: near grazing a
-    dot product such as wo . h may have no digit left."""
+    """`relative`, with 0 where rounding of the directions explains the difference (near grazing a
+    dot product such as wo . h may have no digit left), or where f itself is but a rest of rounding.
+    """
     (suspect,) = np.nonzero(relative > tolerance)
     suspect = suspect[np.argsort(-relative[suspect], kind="stable")]
     rest = relative.copy()
     for start in range(0, len(suspect), SUSPECTS):  # the worst first: one that stands is enough
         some = suspect[start : start + SUSPECTS]
-        excused = difference[some] <= 2.0 * rounding(f, wo[some], wi[some], rng)
+        there = wo[some], wi[some]
+        excused = difference[some] <= 2.0 * rounding(f, *there, rng)
+        excused |= difference[some] <= ROUNDING * around(f, *there)
         rest[some[excused]] = 0.0
         if not excused.all():
             break

@@ -24,8 +24,6 @@ NAME = "positivity"
 QUESTION = "finite and >= 0 everywhere?"
 PROPERTY = "positivity"
 #: how far below zero, relative to |f| around it, rounding may take f
-ROUNDING = 1e-12
-TURNS = 16  # azimuths of wi, the mirror direction's among them
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -44,7 +42,7 @@ def claims(case: Case) -> Iterator[Claim]:
         {},
         "at least",
         Reference(0.0, 0.0, "law", "a BRDF is a density of reflected light"),
-        case.tolerated(ROUNDING),
+        case.tolerated(directions.ROUNDING),
         lambda: _smallest(case),
         property=PROPERTY,
     )
@@ -104,13 +102,7 @@ def _scale(case: Case, p: Any, wo: Any, wi: Any) -> Any:
     f = np.abs(pointwise(case.model, p).f(*directions.random_pairs(case.random(NAME, "median"))))
     f = f[np.isfinite(f) & (f > 0.0)]
     scale = np.full(len(wo), np.median(f) if len(f) else 1.0)
-    start, sine = np.arctan2(wo[:, 1], wo[:, 0]), np.hypot(wi[:, 0], wi[:, 1])
-    for k in range(TURNS if len(wo) else 0):
-        phi = start + 2.0 * np.pi * k / TURNS
-        turned = np.stack([sine * np.cos(phi), sine * np.sin(phi), wi[:, 2]], axis=-1)
-        f = np.abs(pointwise(case.model, p).f(wo, turned))
-        scale = np.fmax(scale, np.where(np.isfinite(f), f, 0.0))
-    return scale
+    return np.fmax(scale, directions.around(pointwise(case.model, p).f, wo, wi))
 
 
 def _name(wo: Any, wi: Any) -> str:

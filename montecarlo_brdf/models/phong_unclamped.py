@@ -61,8 +61,13 @@ sign = odd
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """ks (n+2)/(2 pi) (r.v)^n."""
     away = away_from_mirror(wo, wi)
-    power = cosine_power(away if away < 1.0 else 2.0 - away, p.n)
-    return p.ks * (p.n + 2.0) / (2.0 * math.pi) * power * sign(away > 1.0)
+    below = away > 1.0  # then 1 + r.v from its own form: 2 - away has no digits left near r.v = -1
+    power = cosine_power(away_from_mirror(wo, _opposite(wi)) if below else away, p.n)
+    return p.ks * (p.n + 2.0) / (2.0 * math.pi) * power * sign(below)
+
+
+def _opposite(w: Vec) -> Vec:
+    return -w[0], -w[1], -w[2]
 
 
 def sample(wo: Vec, u: Vec, p: Params) -> Vec:
@@ -74,5 +79,4 @@ def sample(wo: Vec, u: Vec, p: Params) -> Vec:
 
 def pdf(wo: Vec, wi: Vec, p: Params) -> float:
     """Half of (n+1)/(2 pi) |r.v|^n."""
-    opposite = (-wi[0], -wi[1], -wi[2])
-    return 0.5 * (mirror_power_pdf(wo, wi, p.n) + mirror_power_pdf(wo, opposite, p.n))
+    return 0.5 * (mirror_power_pdf(wo, wi, p.n) + mirror_power_pdf(wo, _opposite(wi), p.n))

@@ -1,6 +1,7 @@
 """A fit that is slightly negative opposite the light, and unbounded where both directions graze.
 
 caught by: positivity
+cause: none
 """
 
 import math
