@@ -127,7 +127,10 @@ def test_an_edit_makes_another_kernel_wherever_it_hides(tmp_path: Path) -> None:
     assert [place for place, a, b in zip(HIDDEN, before, after, strict=True) if a == b] == []
 
 
-@pytest.mark.parametrize("place", ["function in another file", "numpy array"])
+@pytest.mark.parametrize(
+    "place",
+    ["function in another file", pytest.param("numpy array", marks=pytest.mark.slow)],
+)
 def test_an_edit_shows_at_once(place: str, user_file: Write, process: Command) -> None:
     model, other = HIDDEN[place]
     path = user_file(model)

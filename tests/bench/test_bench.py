@@ -33,6 +33,7 @@ def test_the_fastest_setting_that_meets_the_target_is_chosen():
     assert "b" not in chosen
 
 
+@pytest.mark.slow
 def test_command_writes_tables_and_timings(cli, tmp_path):
     files = {k: tmp_path / f"bench.{k}" for k in ("json", "md", "png")}
     outcome = cli(

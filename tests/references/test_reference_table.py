@@ -41,8 +41,8 @@ GROUPS = _groups()
 
 
 def _marked(group: tuple[str, ...]) -> Any:
-    """The dearest ones, V-cavities under every kind of Fresnel term, only for `-m slow`."""
-    dear = {"bihemispherical", "v_cavity"}.issubset(group) and group[-1] != "one"
+    """The dearest ones, double integrals under every kind of Fresnel term, only for `-m slow`."""
+    dear = {"bihemispherical", "cook_torrance"}.issubset(group) and group[-1] != "one"
     return pytest.param(group, id="-".join(group), marks=pytest.mark.slow if dear else ())
 
 

@@ -29,6 +29,11 @@ QUICK = [
 ]
 
 
+def slow(value: str) -> Any:
+    """A variation of a drill, only for `-m slow`."""
+    return pytest.param(value, marks=pytest.mark.slow)
+
+
 def start(*arguments: Any, cache: Path | None, **options: Any) -> subprocess.Popen[str]:
     environment = {**os.environ, **options.pop("env", {})}
     environment.pop("BRDF_CHECK_CACHE_DIR", None)
@@ -96,7 +101,7 @@ def test_stdout_full(warm: Path) -> None:
     assert code == 5 and "cannot write to stdout" in err
 
 
-@pytest.mark.parametrize("place", ["/proc/1/no_such_folder", "a file"])
+@pytest.mark.parametrize("place", [slow("/proc/1/no_such_folder"), "a file"])
 def test_cache_that_cannot_be_written(place: str, tmp_path: Path, truth: Any) -> None:
     (tmp_path / "a file").write_text("")
     cache = tmp_path / place / "cache"  # an absolute place stays what it is
@@ -104,6 +109,7 @@ def test_cache_that_cannot_be_written(place: str, tmp_path: Path, truth: Any) ->
     assert code == 0 and results(out) == truth
 
 
+@pytest.mark.slow  # test_cache asks the same of two kernels
 def test_two_processes_compile_at_once(tmp_path: Path, truth: Any) -> None:
     both = [start(*QUICK, cache=tmp_path) for _ in range(2)]
     for process in both:
@@ -113,7 +119,7 @@ def test_two_processes_compile_at_once(tmp_path: Path, truth: Any) -> None:
     assert results(run(*QUICK, cache=tmp_path)[1]) == truth
 
 
-@pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "other"])
+@pytest.mark.parametrize("damage", ["cut", *map(slow, ("flipped", "empty", "other"))])
 def test_damaged_kernels_are_not_used(damage: str, warm: Path, tmp_path: Path, truth: Any) -> None:
     cache = tmp_path / "cache"
     shutil.copytree(warm, cache)
@@ -161,7 +167,7 @@ def test_killed_while_compiling(tmp_path: Path, truth: Any) -> None:
     assert results(run(*QUICK, cache=tmp_path)[1]) == truth
 
 
-@pytest.mark.parametrize("home", [None, "/proc/1/no_such_home", ""])
+@pytest.mark.parametrize("home", [None, *map(slow, ("/proc/1/no_such_home", ""))])
 def test_no_home(home: str | None, tmp_path: Path, truth: Any) -> None:
     # XDG_CACHE_HOME stands for what the user database would say, which tests must not write to
     code, out, _ = run(*QUICK, cache=None, env={"HOME": home, "XDG_CACHE_HOME": str(tmp_path)})

@@ -23,7 +23,13 @@ def test_there_are_thirty() -> None:
     assert len(FILES) >= 30
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(p, id=p.stem, marks=pytest.mark.slow if k % 3 else ())  # a third: suite's time
+        for k, p in enumerate(FILES)
+    ],
+)
 def test_found(path: Path) -> None:
     model = specimens.load(str(path))
     command, what = found_by(path)
