@@ -177,6 +177,7 @@ def test_a_damaged_entry_counts_as_absent(
     assert cache.read("kernel") is None
 
 
+@pytest.mark.slow  # a drill asks the same
 def test_damaged_kernels_are_compiled_again(
     tmp_path: Path, user_file: Write, process: Command
 ) -> None:

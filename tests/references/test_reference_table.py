@@ -41,8 +41,9 @@ GROUPS = _groups()
 
 
 def _marked(group: tuple[str, ...]) -> Any:
-    """The dearest ones, double integrals under every kind of Fresnel term, only for `-m slow`."""
-    dear = {"bihemispherical", "cook_torrance"}.issubset(group) and group[-1] != "one"
+    """The dearest ones, double integrals with V-cavities or Fresnel terms, only for `-m slow`."""
+    double = {"bihemispherical", "cook_torrance"}.issubset(group)
+    dear = double and ("v_cavity" in group or "one" not in group)
     return pytest.param(group, id="-".join(group), marks=pytest.mark.slow if dear else ())
 
 

@@ -128,7 +128,7 @@ def test_results_do_not_depend_on_threads(points):
     assert one == two
 
 
-@pytest.mark.parametrize("points", ["stratified", "lattice"])
+@pytest.mark.parametrize("points", [pytest.param("stratified", marks=pytest.mark.slow), "lattice"])
 def test_other_quantities_agree_with_sobol(points):
     """Within 8 standard errors: t with 15 degrees of freedom exceeds that with chance 9e-7."""
     model = mb.load("ggx")

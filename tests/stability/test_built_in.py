@@ -20,6 +20,8 @@ EXCEPTIONS = {
     ("ggx_kulla_conty", "float64"): SERIES,  # seen where f0 = 0 and nothing else reflects
 }
 
+DEAR = ("ggx_kulla_conty", "oren_nayar_full")  # more than 7 s each
+
 
 def stressed(name: str, precision: str) -> Outcome:
     model = loading.load(name)
@@ -28,7 +30,10 @@ def stressed(name: str, precision: str) -> Outcome:
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
-@pytest.mark.parametrize("name", loading.names())
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=pytest.mark.slow if n in DEAR else ()) for n in loading.names()],
+)
 def test_digits(name: str, precision: str) -> None:
     found = stressed(name, precision)
     worst = found.worst
