@@ -20,7 +20,7 @@ def albedo(path: Path, sampler: str = "cosine") -> Any:
 
 RAISES = """
 def f(wo, wi, p):
-    if wi[0] > 0.99:
+    if wi[0] > 0.5:
         raise ValueError("too far")
     return 0.1
 """
@@ -53,7 +53,6 @@ def f(wo, wi, p):
 """
 
 
-@pytest.mark.slow  # once in three runs of the suite it did not raise: cause unknown
 def test_an_exception_in_a_kernel_is_a_model_error(user_file: Write) -> None:
     with pytest.raises(mb.ModelError, match="rais"):
         albedo(user_file(RAISES))
