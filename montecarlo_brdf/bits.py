@@ -1,8 +1,8 @@
 """Fixed-width integer words that mean the same in plain Python and in compiled kernels.
 
 Plain Python integers have no width and numba's have no masks, so code on words is written with
-`u64`, `u32`, `reverse32`, `word_of`, `double_of`: ordinary functions here, machine instructions in
-a kernel (`compiled_twins`).
+`u64`, `u32`, `reverse32`, `word_of`, `double_of`, `number_of`: ordinary functions here, machine
+instructions in a kernel (`compiled_twins`).
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ from collections.abc import Callable
 from typing import Any
 
 GOLDEN = 0x9E3779B97F4A7C15  # 2^64 / golden ratio, odd: steps that never repeat within 2^64
+ROUNDER = 6755399441055744.0  # 1.5 * 2^52: adding it rounds to an integer in the low bits
+ROUNDER_WORD = 0x4338000000000000
 
 
 def u64(x: int) -> int:
@@ -36,8 +38,13 @@ def word_of(x: float) -> int:
 
 
 def double_of(word: int) -> float:
-    """The double whose bits are `word`: the inverse of `word_of`."""
-    return float(struct.unpack("<d", struct.pack("<q", word))[0])
+    """The double whose bits are `word` modulo 2^64: the inverse of `word_of`."""
+    return float(struct.unpack("<d", struct.pack("<Q", u64(word)))[0])
+
+
+def number_of(word: int) -> float:
+    """A whole number of less than 2^51 as a double: cheaper than a conversion of all 64 bits."""
+    return float(word)
 
 
 def double_at(address: float, index: int) -> float:
@@ -86,6 +93,17 @@ def compiled_twins() -> dict[Callable[..., Any], Any]:
         return numba.float64(numba.int64), generate
 
     @intrinsic
+    def number(typing: Any, x: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            shifted = builder.add(args[0], ir.Constant(ir.IntType(64), ROUNDER_WORD))
+            moved = builder.bitcast(shifted, ir.DoubleType())
+            back = ir.Constant(ir.DoubleType(), ROUNDER)
+            # numba marks as reassociable what has no flag at all; this one allows nothing here
+            return builder.fsub(moved, back, flags=("arcp",))
+
+        return numba.float64(numba.int64), generate
+
+    @intrinsic
     def word(typing: Any, x: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             return builder.bitcast(args[0], ir.IntType(64))
@@ -106,6 +124,7 @@ def compiled_twins() -> dict[Callable[..., Any], Any]:
         u64: numba.uint64,
         u32: numba.uint32,
         reverse32: reverse,
+        number_of: number,
         word_of: word,
         double_of: double,
     }

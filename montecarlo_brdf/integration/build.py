@@ -96,7 +96,8 @@ class Recipe(NamedTuple):
             "SHAPE": self._shape(),
             "STORE": _store(special, integrands),
             "PARAMETERS": parameters.unpacker(self.layout),
-            "BUFFER": _buffer(kernel.BLOCK * self.channels * len(integrands)),
+            "BUFFER": buffer(kernel.ROOM * self.channels * len(integrands)),
+            "ROW": buffer(kernel.ROOM),
             "CHANNELS": self.channels,
             "SLOTS": len(integrands),
         }
@@ -186,7 +187,7 @@ def _store(special: Specialiser, integrands: list[Any]) -> Any:
     return special.bind(kernel.store, {**bound, "SLOTS": len(integrands)})
 
 
-def _buffer(size: int) -> Any:
+def buffer(size: int) -> Any:
     """Intrinsic that reserves `size` doubles on the kernel's stack."""
     import llvmlite.ir as ir
     import numba

@@ -15,13 +15,14 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import parameters
-from montecarlo_brdf.integration.pointwise import Listing
+from montecarlo_brdf.integration.pointwise import TOGETHER, Listing
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.independent import independent_axis
-from montecarlo_brdf.special import log1p
+from montecarlo_brdf.special import log1p, polar_angle
 
 PARAMETERS: Any = None
 SAMPLE: Any = None
+LINE: Any = None
 
 ROWS, COLUMNS = 12, 16
 FIXED = 7  # numbers before the tables
@@ -37,20 +38,32 @@ class Cut(NamedTuple):
     numbers: Any
 
 
-def cell_of(w: Any, reals: Any, at: int, nx: int, nb: int) -> int:
-    """The cell of a direction above the horizon."""
+def coordinates(w: Any, reals: Any, at: int, nx: int, nb: int) -> tuple[float, float]:
+    """Where a direction above the horizon lies in the table: (slope, azimuth) in its squares.
+
+    Without a call or a branch, so that a loop over many directions becomes vector instructions.
+    """
     hx, hy, hz = w[0] + reals[at], w[1] + reals[at + 1], w[2] + reals[at + 2]
     along = hx * reals[at + 3] + hy * reals[at + 4]
     across = hy * reals[at + 3] - hx * reals[at + 4]
     slope = math.sqrt(along * along + across * across)
+    inverse = 1.0 / max(slope, 1e-300)
+    c, s = abs(along) * inverse, abs(across) * inverse
+    c = c if slope > 0.0 else 1.0  # the centre counts as azimuth 0
+    turned = polar_angle(s, c) / TWO_PI
+    turned = 0.5 - turned if along < 0.0 else turned
+    turned = 1.0 - turned if across < 0.0 else turned
     sine = reals[at] * reals[at + 3] + reals[at + 1] * reals[at + 4]
-    k = sine / reals[at + 2] * (along / slope if slope > 0.0 else 1.0)
+    k = sine / reals[at + 2] * (-c if along < 0.0 else c)
     root = abs(k) + math.sqrt(k * k + 1.0)
     horizon = (root if k >= 0.0 else 1.0 / root) / reals[at + 5]
-    steep = slope / hz / reals[at + 5]
-    x = min(log1p(steep * steep) / log1p(horizon * horizon), 1.0) * nx
-    b = math.atan2(across, along) / TWO_PI
-    b = (b + 1.0 if b < 0.0 else b) * nb
+    steep = slope / (hz * reals[at + 5])
+    return log1p(steep * steep) / log1p(horizon * horizon) * nx, turned * nb
+
+
+def cell_at(x: float, b: float, reals: Any, at: int, nx: int, nb: int) -> int:
+    """The cell of a place in the table."""
+    x = min(x, 1.0 * nx)
     i, j = min(int(x), nx - 1), min(int(b), nb - 1)
     marginal = at + FIXED + j
     share = reals[marginal] + (b - j) * (reals[marginal + 1] - reals[marginal])
@@ -70,20 +83,27 @@ def counts(ints: Any, reals: Any, out: Any) -> None:
     ints = (key, start, n, nx, nb, place of the cells).
     """
     p = PARAMETERS(reals)[0]
-    at = ints[5]
+    at, stop = ints[5], ints[1] + ints[2]
     wo = (reals[at], reals[at + 1], reals[at + 2])
     key = u64(ints[0])
-    for i in range(ints[1], ints[1] + ints[2]):
-        u = (
-            independent_axis(key, u64(i), u64(0)),
-            independent_axis(key, u64(i), u64(1)),
-            independent_axis(key, u64(i), u64(2)),
-        )
-        w = SAMPLE(wo, u, p)
-        if w[2] > 0.0 and abs(w[0]) < math.inf and abs(w[1]) < math.inf and w[2] < math.inf:
-            out[cell_of((w[0], w[1], w[2]), reals, at, ints[3], ints[4])] += 1.0
-        else:
-            out[ROWS * COLUMNS] += 1.0
+    wx, wy, wz, x, b = LINE(), LINE(), LINE(), LINE(), LINE()
+    i = ints[1]
+    while i < stop:
+        m = TOGETHER if stop - i > TOGETHER else stop - i
+        for j in range(m):
+            u = (
+                independent_axis(key, u64(i + j), u64(0)),
+                independent_axis(key, u64(i + j), u64(1)),
+                independent_axis(key, u64(i + j), u64(2)),
+            )
+            wx[j], wy[j], wz[j] = SAMPLE(wo, u, p)[:3]
+        for j in range(m):
+            x[j], b[j] = coordinates((wx[j], wy[j], wz[j]), reals, at, ints[3], ints[4])
+        for j in range(m):
+            kept = wz[j] > 0.0 and abs(wx[j]) + abs(wy[j]) + wz[j] < math.inf
+            cell = cell_at(x[j], b[j], reals, at, ints[3], ints[4]) if kept else ROWS * COLUMNS
+            out[cell] += 1.0
+        i += m
 
 
 def places(ints: Any, reals: Any, out: Any) -> None:
@@ -92,7 +112,8 @@ def places(ints: Any, reals: Any, out: Any) -> None:
     for j in range(ints[1]):
         at = ints[0] + 3 * j
         w = (reals[at], reals[at + 1], reals[at + 2])
-        out[j] = float(cell_of(w, reals, ints[4], ints[2], ints[3]))
+        x, b = coordinates(w, reals, ints[4], ints[2], ints[3])
+        out[j] = float(cell_at(x, b, reals, ints[4], ints[2], ints[3]))
 
 
 def drawn(model: Model, p: Any, cut: Cut, key: int, samples: int) -> Any:

@@ -13,6 +13,9 @@ from montecarlo_brdf.bits import double_of, u64, word_of
 from montecarlo_brdf.sampling.points import NONE, replicate_key
 
 BLOCK = 1024
+#: numbers from one row of a block to the next: a power of two would have all rows compete for the
+#: same lines of the cache
+ROOM = BLOCK + 8
 #: reals before the parameters: the fixed direction (x, y, z) and one number for the integrand
 QUERY = 4
 #: numbers kept per replicate and channel: count, mean, sum of squared deviations, largest x
@@ -28,6 +31,7 @@ FOURTH: Any = None
 FIFTH: Any = None
 PARAMETERS: Any = None
 BUFFER: Any = None
+ROW: Any = None
 CHANNELS = 1  # parameter sets
 SLOTS = 1  # integrands
 
@@ -41,6 +45,7 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
     shape = SHAPE(ints)
     query = (reals[0], reals[1], reals[2], reals[3])
     parameters = PARAMETERS(reals)
+    u0, u1, u2, u3, u4 = ROW(), ROW(), ROW(), ROW(), ROW()
     x = BUFFER()
     stop = ints[3] + ints[4]
     for r in range(ints[2]):
@@ -49,11 +54,13 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
         while i < stop:
             m = BLOCK if stop - i > BLOCK else stop - i
             for j in range(m):
-                u = POINTS(key, u64(i + j), shape)
+                u0[j], u1[j], u2[j], u3[j], u4[j] = POINTS(key, u64(i + j), shape)
+            for j in range(m):
+                u = (u0[j], u1[j], u2[j], u3[j], u4[j])
                 for k in range(CHANNELS):
-                    STORE(u, query, parameters[k], x, k * SLOTS * BLOCK + j)
+                    STORE(u, query, parameters[k], x, k * SLOTS * ROOM + j)
             for k in range(CHANNELS * SLOTS):
-                merge_block(x, k * BLOCK, m, out, (r * CHANNELS * SLOTS + k) * STATE)
+                merge_block(x, k * ROOM, m, out, (r * CHANNELS * SLOTS + k) * STATE)
             i += m
 
 
@@ -75,13 +82,13 @@ def store(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
     """
     x[at] = FIRST(u, query, p)
     if SLOTS > 1:
-        x[at + BLOCK] = SECOND(u, query, p)
+        x[at + ROOM] = SECOND(u, query, p)
     if SLOTS > 2:
-        x[at + 2 * BLOCK] = THIRD(u, query, p)
+        x[at + 2 * ROOM] = THIRD(u, query, p)
     if SLOTS > 3:
-        x[at + 3 * BLOCK] = FOURTH(u, query, p)
+        x[at + 3 * ROOM] = FOURTH(u, query, p)
     if SLOTS > 4:
-        x[at + 4 * BLOCK] = FIFTH(u, query, p)
+        x[at + 4 * ROOM] = FIFTH(u, query, p)
 
 
 def merge_block(x: Any, start: int, m: int, out: Any, at: int) -> None:

@@ -69,9 +69,8 @@ def machine() -> Any:
     """LLVM's description of this processor, to generate code for it."""
     binding = _llvm()
     triple, cpu, features = target()
-    reloc = "static" if triple.startswith(("x86", "i")) else "default"
     return binding.Target.from_default_triple().create_target_machine(
-        cpu=cpu, features=features, opt=3, reloc=reloc, codemodel="jitdefault", jit=True
+        cpu=cpu, features=features, opt=3, reloc="pic", codemodel="small", jit=True
     )
 
 

@@ -19,6 +19,7 @@ PARAMETERS: Any = None
 FUNCTION: Any = None
 WRITE: Any = None
 
+TOGETHER = 256  # numbers in each LINE of a template that goes step by step
 DRAWN = 4  # numbers per draw: x, y, z and the weight, NaN if the sampler returns none
 
 
@@ -71,7 +72,8 @@ class Listing(NamedTuple):
     def assemble(self, special: Specialiser) -> Any:
         """The template with everything bound."""
         unpack = parameters.unpacker(self.layout)
-        return special.clone(self.template, {**self.bound, "PARAMETERS": unpack})
+        made = {"PARAMETERS": unpack, "LINE": build.buffer(TOGETHER)}
+        return special.clone(self.template, {**self.bound, **made})
 
 
 class Pointwise:

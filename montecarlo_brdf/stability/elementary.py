@@ -97,7 +97,10 @@ def _words(arithmetic: Arithmetic) -> dict[Any, Any]:
     def double_of(word: Any) -> Any:
         return Batch(np.asarray(getattr(word, "values", word)).view(np.float64), arithmetic)
 
-    return {bits.word_of: word_of, bits.double_of: double_of}
+    def number_of(word: Any) -> Any:
+        return Batch(np.asarray(getattr(word, "values", word), dtype=np.float64), arithmetic)
+
+    return {bits.word_of: word_of, bits.double_of: double_of, bits.number_of: number_of}
 
 
 def _stand_ins(m: Any) -> dict[Any, Any]:
