@@ -1,10 +1,10 @@
 """Counting directions in cells of equal probability, in compiled code: drawn or given ones.
 
-Cells are cut by a density tabulated over coordinates that follow a lobe (checks.cells has tables
-and coordinates in NumPy): COLUMNS of equal probability in azimuth, each cut into ROWS of equal
-probability along the slope. What a call knows of them stands in `reals` from place `at` on:
-wo (3), turn (2), smallest slope, mass, cumulated marginal (nb + 1), and the cumulated conditionals
-(nb, nx + 1), each from 0 to 1.
+Cells are cut by a density tabulated in nx x nb squares over coordinates that follow a lobe
+(checks.cells): COLUMNS of equal probability in azimuth, each cut into ROWS of equal probability
+along the slope. What a call knows of them stands in `reals` from place `at` on: wo (3), turn (2),
+smallest slope, the edges between columns, and for each strip of azimuth the edges between rows
+(nb, ROWS - 1), all counted in squares.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.integration import parameters
+from montecarlo_brdf.integration import paced, parameters
 from montecarlo_brdf.integration.pointwise import TOGETHER, Listing
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.independent import independent_axis
@@ -25,8 +25,7 @@ SAMPLE: Any = None
 LINE: Any = None
 
 ROWS, COLUMNS = 12, 16
-FIXED = 7  # numbers before the tables
-MOST = 1 << 16  # draws of a call: Ctrl-C waits for it to end
+FIXED = 6  # numbers before the edges
 TWO_PI = 2.0 * math.pi
 
 
@@ -61,20 +60,15 @@ def coordinates(w: Any, reals: Any, at: int, nx: int, nb: int) -> tuple[float, f
     return log1p(steep * steep) / log1p(horizon * horizon) * nx, turned * nb
 
 
-def cell_at(x: float, b: float, reals: Any, at: int, nx: int, nb: int) -> int:
-    """The cell of a place in the table."""
-    x = min(x, 1.0 * nx)
-    i, j = min(int(x), nx - 1), min(int(b), nb - 1)
-    marginal = at + FIXED + j
-    share = reals[marginal] + (b - j) * (reals[marginal + 1] - reals[marginal])
-    below = at + FIXED + nb + 1 + j * (nx + 1) + i
-    inside = reals[below] + (x - i) * (reals[below + 1] - reals[below])
-    return part(share / reals[at + 6], COLUMNS) * ROWS + part(inside, ROWS)
-
-
-def part(share: float, n: int) -> int:
-    """Which of n equal parts of [0, 1] a share lies in."""
-    return max(0, min(int(share * n), n - 1))
+def cell_at(x: float, b: float, reals: Any, at: int, nb: int) -> int:
+    """The cell of a place in the table: so many edges lie below it."""
+    column, row = 0, 0
+    for k in range(COLUMNS - 1):
+        column += b >= reals[at + FIXED + k]
+    below = at + FIXED + (COLUMNS - 1) + min(int(b), nb - 1) * (ROWS - 1)
+    for k in range(ROWS - 1):
+        row += x >= reals[below + k]
+    return column * ROWS + row
 
 
 def counts(ints: Any, reals: Any, out: Any) -> None:
@@ -101,7 +95,7 @@ def counts(ints: Any, reals: Any, out: Any) -> None:
             x[j], b[j] = coordinates((wx[j], wy[j], wz[j]), reals, at, ints[3], ints[4])
         for j in range(m):
             kept = wz[j] > 0.0 and abs(wx[j]) + abs(wy[j]) + wz[j] < math.inf
-            cell = cell_at(x[j], b[j], reals, at, ints[3], ints[4]) if kept else ROWS * COLUMNS
+            cell = cell_at(x[j], b[j], reals, at, ints[4]) if kept else ROWS * COLUMNS
             out[cell] += 1.0
         i += m
 
@@ -113,21 +107,24 @@ def places(ints: Any, reals: Any, out: Any) -> None:
         at = ints[0] + 3 * j
         w = (reals[at], reals[at + 1], reals[at + 2])
         x, b = coordinates(w, reals, ints[4], ints[2], ints[3])
-        out[j] = float(cell_at(x, b, reals, ints[4], ints[2], ints[3]))
+        out[j] = float(cell_at(x, b, reals, ints[4], ints[3]))
 
 
 def drawn(model: Model, p: Any, cut: Cut, key: int, samples: int) -> Any:
     """How many draws of the model's sampler lie in each cell, and last how many were rejected."""
     import numpy as np
 
+    from montecarlo_brdf.integration.estimators import compiled
+
     layout, numbers = parameters.pack([model.prepared(p)], 0)
     reals = np.concatenate([numbers, cut.numbers])
     out = np.zeros(ROWS * COLUMNS + 1)
     signed = key - (1 << 64) if key >> 63 else key
-    for start in range(0, samples, MOST):
-        n = min(MOST, samples - start)
-        ints = (signed, start, n, cut.nx, cut.nb, len(numbers))
-        _run(model, Listing(counts, {"SAMPLE": model.sample}, layout), ints, reals, out)
+    kernel = compiled(model.name, Listing(counts, {"SAMPLE": model.sample}, layout))
+    for start, n in paced.pieces(kernel, samples):
+        ints = np.array([signed, start, n, cut.nx, cut.nb, len(numbers)], dtype=np.int64)
+        if kernel(ints.ctypes.data, reals.ctypes.data, out.ctypes.data) != 0:
+            raise ModelError(f"model {model.name} raised an exception while it was sampled")
     return out
 
 
@@ -135,20 +132,12 @@ def placed(model: Model, p: Any, cut: Cut, w: Any) -> Any:
     """The cells of directions (n, 3) above the horizon."""
     import numpy as np
 
-    layout, _ = parameters.pack([model.prepared(p)], 0)
-    reals = np.concatenate([cut.numbers, np.ravel(w)])
-    out = np.zeros(len(w))
-    ints = (len(cut.numbers), len(w), cut.nx, cut.nb, 0)
-    _run(model, Listing(places, {}, layout), ints, reals, out)
-    return out.astype(int)
-
-
-def _run(model: Model, listing: Listing, numbers: tuple[int, ...], reals: Any, out: Any) -> None:
-    import numpy as np
-
     from montecarlo_brdf.integration.estimators import compiled
 
-    ints = np.array(numbers, dtype=np.int64)
-    kernel = compiled(model.name, listing)
-    if kernel(ints.ctypes.data, reals.ctypes.data, out.ctypes.data) != 0:
-        raise ModelError(f"model {model.name} raised an exception while it was sampled")
+    layout, _ = parameters.pack([model.prepared(p)], 0)
+    kernel = compiled(model.name, Listing(places, {}, layout))
+    reals = np.concatenate([cut.numbers, np.ravel(w)])
+    out = np.zeros(len(w))
+    ints = np.array([len(cut.numbers), len(w), cut.nx, cut.nb, 0], dtype=np.int64)
+    kernel(ints.ctypes.data, reals.ctypes.data, out.ctypes.data)
+    return out.astype(int)

@@ -9,8 +9,9 @@ import montecarlo_brdf as mb
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.cells import CELLS, COARSE, Cells
 from montecarlo_brdf.checks.sampling import judged
-from montecarlo_brdf.integration import counting
+from montecarlo_brdf.integration import counting, tabulating
 from montecarlo_brdf.integration.counting import COLUMNS, ROWS
+from montecarlo_brdf.integration.pointwise import Pointwise
 
 
 def by_numpy(cells: Cells, w: np.ndarray) -> np.ndarray:
@@ -29,7 +30,7 @@ def by_numpy(cells: Cells, w: np.ndarray) -> np.ndarray:
 def test_compiled_code_finds_the_same_cells(theta: float) -> None:
     model = mb.load("ggx")
     cells = Cells(Case(model, model.parameters(alpha=0.1), [theta], phi_o_deg=30.0), theta, COARSE)
-    w, _ = cells.functions.sample(cells.wo, np.random.default_rng(3).random((4000, 3)))
+    w, _ = Pointwise(model, cells.p).sample(cells.wo, np.random.default_rng(3).random((4000, 3)))
     w = w[w[:, 2] > 0.0]
     found = counting.placed(model, cells.p, cells.cut, w)
     assert np.mean(found == by_numpy(cells, w)) > 0.999  # the rest lie on edges, to rounding
@@ -38,10 +39,28 @@ def test_compiled_code_finds_the_same_cells(theta: float) -> None:
 def test_every_draw_is_counted_once_however_the_work_is_cut() -> None:
     model = mb.load("ggx")
     cells = Cells(Case(model, model.parameters(alpha=1.0), [80.0]), 80.0, COARSE)
-    counts = cells.counts(7, counting.MOST + 1000)
-    assert counts.sum() == counting.MOST + 1000 and counts[-1] > 0.0
-    assert np.array_equal(counts, cells.counts(7, counting.MOST + 1000))
-    assert not np.array_equal(counts, cells.counts(8, counting.MOST + 1000))
+    draws = 100_001
+    counts = cells.counts(7, draws)  # calls of few draws as long as their pace is not known
+    assert counts.sum() == draws and counts[-1] > 0.0
+    assert np.array_equal(counts, cells.counts(7, draws))
+    assert not np.array_equal(counts, cells.counts(8, draws))
+
+
+@pytest.mark.parametrize("theta", [0.0, 80.0])
+def test_compiled_code_tabulates_the_same_density(theta: float) -> None:
+    model = mb.load("ggx")
+    cells = Cells(Case(model, model.parameters(alpha=0.1), [theta], phi_o_deg=30.0), theta, COARSE)
+    nx, nb = COARSE
+    x, b = np.meshgrid((np.arange(nx) + 0.5) / nx, (np.arange(nb) + 0.5) / nb, indexing="ij")
+    wi, area = cells.coordinates.directions(x.ravel(), b.ravel())
+    expected = Pointwise(model, cells.p).pdf(cells.wo, wi) * area / (nx * nb)
+    found, _ = tabulating.tabulated(model, cells.p, cells.place, COARSE)
+    assert np.allclose(found, expected, rtol=1e-9, atol=0.0)
+    _, wi = tabulating.tabulated(model, cells.p, cells.place, COARSE, key=5)
+    x, b = cells.coordinates.coordinates(wi)
+    square = np.arange(nx * nb)
+    assert np.mean((x * nx).astype(int) == square // nb) > 0.999  # each in its own square
+    assert np.mean((b * nb).astype(int) == square % nb) > 0.999
 
 
 def test_the_upper_bound_misses_as_seldom_as_it_says() -> None:
