@@ -10,6 +10,7 @@ It cannot see: a wrong value that is finite and positive.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from typing import Any
 
@@ -23,18 +24,18 @@ from montecarlo_brdf.integration import scattered
 NAME = "positivity"
 QUESTION = "finite and >= 0 everywhere?"
 PROPERTY = "positivity"
-#: how far below zero, relative to |f| around it, rounding may take f
 
 
 def claims(case: Case) -> Iterator[Claim]:
     """No value that is not finite, and no negative one."""
+    seen = functools.cache(lambda: _seen(case))
     yield ExactClaim(
         "values of f not finite",
         {},
         "at most",
         Reference(0.0, 0.0, "law", "a BRDF is a density of reflected light"),
         0.0,
-        lambda: _count_not_finite(case),
+        lambda: seen()[0],
         property=PROPERTY,
     )
     yield ExactClaim(
@@ -43,7 +44,7 @@ def claims(case: Case) -> Iterator[Claim]:
         "at least",
         Reference(0.0, 0.0, "law", "a BRDF is a density of reflected light"),
         case.tolerated(directions.ROUNDING),
-        lambda: _smallest(case),
+        lambda: seen()[1],
         property=PROPERTY,
     )
 
@@ -67,34 +68,39 @@ def _values(case: Case) -> Iterator[tuple[Any, Any, Any, Any]]:
         yield p, wo, wi, pointwise(case.model, p).f(wo, wi)
 
 
-def _count_not_finite(case: Case) -> Exact:
-    count, points, where, hint = 0, 0, {}, None
+def _seen(case: Case) -> tuple[Exact, Exact]:
+    """How many values are not finite, and the smallest one in relation to those around it."""
+    wild, low = Exact(0.0, points=0), Exact(0.0, points=0)
     for p, wo, wi, f in _values(case):
-        bad = ~np.isfinite(f)
-        if bad.any() and not count:
-            k = int(np.argmax(bad))
-            where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
-            hint = (
-                f"f is {f[k]} at {_name(wo[k], wi[k])}: look for 0/0, 1/0 or the root of a negative"
-            )
-        count += int(bad.sum())
-        points += len(f)
-    return Exact(float(count), 0.0, where, points, hint=hint)
+        wild = _not_finite(case, p, wo, wi, f, wild)
+        low = _smallest(case, p, wo, wi, f, low)
+    return wild, low
 
 
-def _smallest(case: Case) -> Exact:
-    found = Exact(0.0, points=0)
-    for p, wo, wi, f in _values(case):
-        (low,) = np.nonzero(np.isfinite(f) & (f < 0.0))
-        value = f[low] / _scale(case, p, wo[low], wi[low])
-        points = found.points + len(f)
-        if len(low) and value.min() < found.value:
-            k = low[int(np.argmin(value))]
-            where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
-            hint = f"f = {f[k]:.6g} at {_name(wo[k], wi[k])}"
-            found = Exact(float(value.min()), 0.0, where, points, hint=hint)
-        found = found._replace(points=points)
-    return found
+def _not_finite(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> Exact:
+    """`found` with the values that are not finite counted, and the place of the first."""
+    bad, points = ~np.isfinite(f), found.points + len(f)
+    if bad.any() and not found.value:
+        k = int(np.argmax(bad))
+        where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+        hint = f"f is {f[k]} at {_name(wo[k], wi[k])}: look for 0/0, 1/0 or the root of a negative"
+        return Exact(float(bad.sum()), 0.0, where, points, hint=hint)
+    return found._replace(value=found.value + float(bad.sum()), points=points)
+
+
+def _smallest(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> Exact:
+    """`found`, or a value that lies deeper below zero."""
+    (low,) = np.nonzero(np.isfinite(f) & (f < 0.0))
+    points = found.points + len(f)
+    if not len(low):
+        return found._replace(points=points)
+    value = f[low] / _scale(case, p, wo[low], wi[low])
+    if value.min() >= found.value:
+        return found._replace(points=points)
+    k = low[int(np.argmin(value))]
+    where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+    hint = f"f = {f[k]:.6g} at {_name(wo[k], wi[k])}"
+    return Exact(float(value.min()), 0.0, where, points, hint=hint)
 
 
 def _scale(case: Case, p: Any, wo: Any, wi: Any) -> Any:

@@ -19,6 +19,7 @@ PARAMETERS: Any = None
 INTEGRAND: Any = None
 FUNCTION: Any = None
 ROW: Any = None
+LINE: Any = None
 F: Any = None
 PDF: Any = None
 SKY: Any = None
@@ -26,22 +27,29 @@ SKY: Any = None
 NODE = 4  # numbers of a node: u[0], u[1], u[4] and its weight
 PLACE = 4  # numbers of a place before its parameters: a direction and what the integrand needs
 CHUNK = 1024  # nodes of a call
+TOGETHER = 256  # nodes in each LINE
 FINEST = 1e-3  # slope of the half vector from which on `albedo_slopes` resolves a lobe
 
 
 def means(ints: Any, reals: Any, out: Any) -> None:
     """out[j] += sum_i w_i INTEGRAND(u_i, place_j, p_j); ints = (places, nodes, place of the first
     place, numbers of a place, place of the first node)."""
-    for j in range(ints[0]):
-        place = ROW(reals, ints[2] + j * ints[3])
-        p = PARAMETERS(place)[0]
-        query = (place[0], place[1], place[2], place[3])
-        total = 0.0
-        for i in range(ints[1]):
-            at = ints[4] + 4 * i
-            u = (reals[at], reals[at + 1], 0.0, 0.0, reals[at + 2])
-            total += reals[at + 3] * INTEGRAND(u, query, p)
-        out[j] += total
+    u0, u1, u4, x = LINE(), LINE(), LINE(), LINE()
+    for first in range(0, ints[1], TOGETHER):
+        m = TOGETHER if ints[1] - first > TOGETHER else ints[1] - first
+        weights = ROW(reals, ints[4] + NODE * first)
+        for i in range(m):
+            u0[i], u1[i], u4[i] = weights[NODE * i], weights[NODE * i + 1], weights[NODE * i + 2]
+        for j in range(ints[0]):
+            place = ROW(reals, ints[2] + j * ints[3])
+            p = PARAMETERS(place)[0]
+            query = (place[0], place[1], place[2], place[3])
+            for i in range(m):
+                x[i] = INTEGRAND((u0[i], u1[i], 0.0, 0.0, u4[i]), query, p)
+            total = 0.0
+            for i in range(m):
+                total += weights[NODE * i + 3] * x[i]
+            out[j] += total
 
 
 def pairs(ints: Any, reals: Any, out: Any) -> None:
@@ -139,7 +147,13 @@ class Listing(NamedTuple):
         function = special.bind(self.function, self.functions) if self.functions else self.function
         unpack = parameters.unpacker(self.layout)
         return special.clone(
-            self.template, {name: function, "PARAMETERS": unpack, "ROW": parameters.row()}
+            self.template,
+            {
+                name: function,
+                "PARAMETERS": unpack,
+                "ROW": parameters.row(),
+                "LINE": build.buffer(TOGETHER),
+            },
         )
 
 
