@@ -60,9 +60,9 @@ class Cells:
         between = edges(marginal / mass, counting.COLUMNS)
         return counting.Cut(*self.size, np.concatenate([self.place, between, *rows]))
 
-    def counts(self, key: int, samples: int) -> Any:
+    def counts(self, key: int, samples: int, threads: int = 1) -> Any:
         """Draws in each cell, and last those that were rejected or are not finite."""
-        return counting.drawn(self.model, self.p, self.cut, key, samples)
+        return counting.drawn(self.model, self.p, self.cut, key, samples, threads)
 
     @property
     def probability(self) -> Any:

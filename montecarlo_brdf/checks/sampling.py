@@ -74,7 +74,8 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
         return Fit(math.nan, math.inf, 1.0, 0, f"the pdf has mass {mass:.4g}: see `pdf`")
     n = min(math.ceil(DRAWS * plan.samples), MOST)
     place = (theta, case.phi_o_deg, *case.one)
-    counts = cells.counts(stream(plan.seed, case.model.name, NAME, *place, n), n)
+    key = stream(plan.seed, case.model.name, NAME, *place, n)
+    counts = cells.counts(key, n, plan.threads)
     found = judged(counts, cells.probability, level)
     found = found._replace(hint=_hint(counts, cells.probability))
     if found.p_value >= level:

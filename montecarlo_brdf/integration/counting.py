@@ -9,6 +9,7 @@ smallest slope, the edges between columns, and for each strip of azimuth the edg
 
 from __future__ import annotations
 
+import concurrent.futures
 import math
 from typing import Any, NamedTuple
 
@@ -110,7 +111,7 @@ def places(ints: Any, reals: Any, out: Any) -> None:
         out[j] = float(cell_at(x, b, reals, ints[4], ints[3]))
 
 
-def drawn(model: Model, p: Any, cut: Cut, key: int, samples: int) -> Any:
+def drawn(model: Model, p: Any, cut: Cut, key: int, samples: int, threads: int = 1) -> Any:
     """How many draws of the model's sampler lie in each cell, and last how many were rejected."""
     import numpy as np
 
@@ -118,14 +119,20 @@ def drawn(model: Model, p: Any, cut: Cut, key: int, samples: int) -> Any:
 
     layout, numbers = parameters.pack([model.prepared(p)], 0)
     reals = np.concatenate([numbers, cut.numbers])
-    out = np.zeros(ROWS * COLUMNS + 1)
     signed = key - (1 << 64) if key >> 63 else key
     kernel = compiled(model.name, Listing(counts, {"SAMPLE": model.sample}, layout))
-    for start, n in paced.pieces(kernel, samples):
-        ints = np.array([signed, start, n, cut.nx, cut.nb, len(numbers)], dtype=np.int64)
-        if kernel(ints.ctypes.data, reals.ctypes.data, out.ctypes.data) != 0:
-            raise ModelError(f"model {model.name} raised an exception while it was sampled")
-    return out
+
+    def share(start: int, stop: int) -> Any:
+        out = np.zeros(ROWS * COLUMNS + 1)
+        for done, n in paced.pieces(kernel, stop - start):
+            ints = np.array([signed, start + done, n, cut.nx, cut.nb, len(numbers)], dtype=np.int64)
+            if kernel(ints.ctypes.data, reals.ctypes.data, out.ctypes.data) != 0:
+                raise ModelError(f"model {model.name} raised an exception while it was sampled")
+        return out
+
+    ends = [samples * k // threads for k in range(threads + 1)]
+    with concurrent.futures.ThreadPoolExecutor(threads) as pool:
+        return sum(pool.map(share, ends[:-1], ends[1:]))
 
 
 def placed(model: Model, p: Any, cut: Cut, w: Any) -> Any:

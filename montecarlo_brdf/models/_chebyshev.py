@@ -6,6 +6,7 @@ indices of short tuples cost nothing, and the loop over samples still vectorises
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 Eight = tuple[float, ...]
 
@@ -24,10 +25,10 @@ def eight_terms(k: Eight, t: float, b: float, c: float) -> tuple[float, float]:
     return b, c
 
 
-def fitted(function: Callable[[float], float], terms: int) -> tuple[Eight, ...]:
-    """The series that agrees with `function` at Chebyshev's points in [-1, 1], in eights."""
+def fitted(function: Callable[[Any], Any], terms: int) -> tuple[Eight, ...]:
+    """The series that agrees with `function`, of arrays, at Chebyshev's points in [-1, 1], in
+    eights."""
     import numpy as np
 
-    values = np.vectorize(function)
-    series = np.polynomial.chebyshev.chebinterpolate(values, terms - 1)
+    series = np.polynomial.chebyshev.chebinterpolate(function, terms - 1)
     return tuple(tuple(map(float, row)) for row in series.reshape(-1, 8))

@@ -42,7 +42,7 @@ def lost(mu: float, p: Table) -> float:
     return 0.0 if value < 0.0 else value  # at the horizon it is less than the error of the fit
 
 
-def table_at(t: float, p: Table) -> float:
+def table_at(t: Any, p: Table) -> Any:
     """The series at t = 2 z - 1."""
     b, c = eight_terms(p.k7, t, 0.0, 0.0)
     b, c = eight_terms(p.k6, t, b, c)
@@ -65,50 +65,50 @@ def table(alpha: float, f0: float) -> Table:
     return Table(alpha, f0, 1.0, *coefficients(alpha))
 
 
-@functools.lru_cache(maxsize=64)
+@functools.lru_cache(maxsize=1024)
 def coefficients(alpha: float) -> tuple[Eight, ...]:
-    """The series of one alpha, which takes some 30 ms to make."""
+    """The series of one alpha, which takes some milliseconds to make."""
     return fitted(lambda t: lost_exactly(cosine_at(t, alpha), alpha), TERMS)
 
 
-def cosine_at(t: float, alpha: float) -> float:
-    """The cosine that the table has at t in [-1, 1]."""
+def cosine_at(t: Any, alpha: float) -> Any:
+    """The cosines that the table has at t in [-1, 1]."""
+    import numpy as np
+
     away = farthest(alpha) * (0.5 + 0.5 * t) ** 4
-    return min(1.0, alpha * away * (2.0 - away) / (1.0 - away) ** 2)
+    return np.minimum(1.0, alpha * away * (2.0 - away) / (1.0 - away) ** 2)
 
 
 def average_lost(p: Table) -> float:
     """2 integral of (1 - E) mu dmu, over z by Gauss-Legendre."""
     import numpy as np
 
-    alpha = p.alpha
-    node, weight = np.polynomial.legendre.leggauss(TERMS)
-    total = 0.0
-    for t, w in zip(node, weight, strict=True):
-        z, mu = 0.5 + 0.5 * t, cosine_at(t, alpha)
-        away = farthest(alpha) * z**4
-        slope = 8.0 * alpha * farthest(alpha) * z**3 / (1.0 - away) ** 3  # dmu/dz
-        total += 0.5 * w * 2.0 * mu * slope * table_at(t, p)
-    return float(total)
+    t, weight = legendre(TERMS)
+    z, most = 0.5 + 0.5 * t, farthest(p.alpha)
+    slope = 8.0 * p.alpha * most * z**3 / (1.0 - most * z**4) ** 3  # dmu/dz
+    return float(np.sum(weight * cosine_at(t, p.alpha) * slope * table_at(t, p)))
 
 
-def lost_exactly(mu: float, alpha: float) -> float:
-    """1 - E(mu) by quadrature over the polar angle of wi, down to where h meets the horizon."""
+def lost_exactly(mu: Any, alpha: float) -> Any:
+    """1 - E at cosines mu by quadrature over the polar angle of wi, down to where h meets the
+    horizon."""
     import numpy as np
 
-    a2 = alpha * alpha
-    theta_o = math.atan2(math.sqrt((1.0 - mu) * (1.0 + mu)), mu)
-    t, weight = panels(theta_o, mu, alpha)
+    a2, cosines = alpha * alpha, np.atleast_1d(np.asarray(mu, dtype=float))
+    angles = np.arctan2(np.sqrt((1.0 - cosines) * (1.0 + cosines)), cosines)
+    t, weight, which = panels(angles, cosines, alpha)
+    mu_o, theta_o = cosines[which], angles[which]
     mu_i, sine2 = np.abs(np.cos(t)), np.sin(t) ** 2
     stretched_i = np.sqrt(mu_i * mu_i + a2 * sine2)
-    stretched_o = math.sqrt(mu * mu + a2 * (1.0 - mu) * (1.0 + mu))
+    stretched_o = np.sqrt(mu_o * mu_o + a2 * (1.0 - mu_o) * (1.0 + mu_o))
     hidden = a2 * sine2 / (stretched_i + mu_i)
-    masked = mu * hidden / (mu_i * stretched_o + mu * stretched_i)
-    leaving = np.where(t < 0.5 * math.pi, masked, 1.0) / (mu + stretched_o)
-    return float(np.sum(0.5 * weight * np.sin(t) * ring(t, theta_o, a2) * leaving))
+    masked = mu_o * hidden / (mu_i * stretched_o + mu_o * stretched_i)
+    leaving = np.where(t < 0.5 * math.pi, masked, 1.0) / (mu_o + stretched_o)
+    parts = 0.5 * weight * np.sin(t) * ring(t, theta_o, a2) * leaving
+    return np.bincount(which, parts, len(cosines)).reshape(np.shape(mu))
 
 
-def ring(theta_i: Any, theta_o: float, a2: float) -> Any:
+def ring(theta_i: Any, theta_o: Any, a2: float) -> Any:
     """Integral of D over the azimuth between wi and wo."""
     import numpy as np
 
@@ -122,15 +122,28 @@ def ring(theta_i: Any, theta_o: float, a2: float) -> Any:
     return 2.0 * a2 * (1.0 + np.sqrt(c2 / x) * k * (4.0 + 2.0 * k * mean / x))
 
 
-def panels(theta_o: float, mu: float, alpha: float) -> tuple[Any, Any]:
-    """Gauss-Legendre nodes and weights on [0, pi - theta_o], panels doubling away from peaks."""
+def panels(theta_o: Any, mu: Any, alpha: float) -> tuple[Any, Any, Any]:
+    """Gauss-Legendre nodes and weights on [0, pi - theta_o] of each angle, and whose they are:
+    panels double away from the peaks."""
     import numpy as np
 
-    end = math.pi - theta_o
-    steps = max(min(alpha, mu), 1e-18) * 2.0 ** np.arange(65)
-    cuts = [c + s * g for c in (0.0, theta_o, 0.5 * math.pi) for s in (-1, 1) for g in (0, *steps)]
-    edges = np.unique([0.0, end, *(c for c in cuts if 0.0 < c < end)])
-    node, weight = np.polynomial.legendre.leggauss(16)
-    half = 0.5 * np.diff(edges)[:, None]
-    middle = 0.5 * (edges[1:] + edges[:-1])[:, None]
-    return (middle + half * node).ravel(), (half * weight).ravel()
+    first = np.maximum(np.minimum(alpha, mu), 1e-18)[:, None]
+    steps = first * 2.0 ** np.arange(1 + math.ceil(math.log2(math.pi / first.min())))
+    moves = np.concatenate([-steps, 0.0 * first, steps], axis=1)
+    peaks = (0.0, theta_o[:, None], 0.5 * math.pi)
+    cuts = np.concatenate([np.zeros_like(first), *(peak + moves for peak in peaks)], axis=1)
+    cuts = np.sort(np.clip(cuts, 0.0, math.pi - theta_o[:, None]), axis=1)
+    which, place = np.nonzero(cuts[:, 1:] > cuts[:, :-1])
+    low, high = cuts[which, place][:, None], cuts[which, place + 1][:, None]
+    node, weight = legendre(16)
+    half = 0.5 * (high - low)
+    nodes = 0.5 * (high + low) + half * node
+    return nodes.ravel(), (half * weight).ravel(), np.repeat(which, 16)
+
+
+@functools.cache
+def legendre(n: int) -> Any:
+    """Nodes and weights of Gauss and Legendre's rule on [-1, 1]."""
+    import numpy as np
+
+    return np.polynomial.legendre.leggauss(n)

@@ -92,7 +92,7 @@ def blinn_phong_series(n: float) -> Series:
         integrand = np.exp(-(2.0 * x + y) * y) * np.sqrt(w2 / -np.expm1(-w2))
         return float(REACH * ratio / math.sqrt(a) * np.sum(weight * integrand))
 
-    return Series(n, ratio / (n + 1.0), end, scale, *fitted(scaled_tail, 24))
+    return Series(n, ratio / (n + 1.0), end, scale, *fitted(np.vectorize(scaled_tail), 24))
 
 
 def half_step(z: float) -> float:

@@ -42,7 +42,7 @@ def test_every_draw_is_counted_once_however_the_work_is_cut() -> None:
     draws = 100_001
     counts = cells.counts(7, draws)  # calls of few draws as long as their pace is not known
     assert counts.sum() == draws and counts[-1] > 0.0
-    assert np.array_equal(counts, cells.counts(7, draws))
+    assert np.array_equal(counts, cells.counts(7, draws, threads=3))
     assert not np.array_equal(counts, cells.counts(8, draws))
 
 
