@@ -94,15 +94,16 @@ def slopes(
     ends = [np.arcsinh(edge / width) for edge in edges]
     spans = list(pairwise(ends))
     v = np.concatenate([a + (b - a) * nodes.x for a, b in spans], axis=1)
-    below = np.concatenate([(last - b) + (b - a) * nodes.rest for a, b in spans], axis=1)
     weight = np.concatenate([(b - a) * nodes.weight for a, b in spans], axis=1)
-    grow = np.exp(v)
+    grow, farthest = np.exp(v), np.exp(last)
     shrink = 1.0 / grow
-    t = 0.5 * width * (grow - shrink)
-    # t_max - t without subtracting: it decides mu_i near the horizon
-    to_horizon = -0.5 * width * np.expm1(-below) * (np.exp(last) + shrink)
+    t = (0.5 * width) * (grow - shrink)
+    # t_max - t in factors: it decides mu_i near the horizon. What rounding takes from the first of
+    # them, eps/(1 - x) at x of the way to the horizon, meets weights that shrink like 1 - x.
+    to_horizon = (0.5 * width) * (farthest - grow) * (1.0 + shrink / farthest)
     square = 1.0 + t * t
-    mu_i = np.clip(mu_o * to_horizon * (t + 1.0 / t_max) / square, TINY, 1.0)
+    mu_i = np.maximum(mu_o * to_horizon * (t + 1.0 / t_max) / square, TINY)
+    mu_i = np.minimum(mu_i, 1.0)
     h_n = 1.0 / np.sqrt(square)
     geometry = Geometry(mu_o, mu_i, h_n, mu_o * (1.0 + k * t) * h_n, t, k)
     return geometry, weight * t * (0.5 * width) * (grow + shrink)
