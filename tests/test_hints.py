@@ -64,3 +64,10 @@ def test_widths_and_azimuths() -> None:
     phi = np.arctan2(WI[:, 1], WI[:, 0])
     assert "azimuth" in hints.azimuth_named(1.0 + 0.02 * np.sin(phi), WI)
     assert hints.azimuth_named(ratio, WI) == ""
+
+
+def test_what_is_right_nearly_everywhere_has_no_factor() -> None:
+    ratio = np.ones(2000)
+    ratio[:10] = 0.5
+    assert hints.shape_named(ratio, WO, WI) is None
+    assert "1.001 everywhere" in str(hints.shape_named(np.full(2000, 1.001), WO, WI))

@@ -138,6 +138,10 @@ def _hint(ours: Any, theirs: Any, wo: Any, wi: Any, k: int) -> str:
     named = shape_named(ratio[ordinary], wo[both][ordinary], wi[both][ordinary])
     if named:
         return f"f / f expected = {named}"
+    steep = np.minimum(wo[both][:, 2], wi[both][:, 2])[np.abs(ratio - 1.0) > 10.0 * TOLERANCE]
+    if len(steep) >= 20 and steep.max() < 0.5:
+        beyond = math.degrees(math.acos(steep.max()))
+        return f"f differs only beyond {beyond:.0f} degrees: look at clamps of cosines"
     clipped = 20 < np.count_nonzero(ours == ours.max()) < 0.9 * len(ours)  # or it is constant
     if clipped and theirs.max() > ours.max():
         return f"f never exceeds {ours.max():.6g}: clipped, {theirs.max():.6g} is expected"

@@ -69,12 +69,16 @@ def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
         " wo.h": dot,
         " n.h/wo.h": mu_h / dot,
     }
-    for name, shape in [*shapes.items(), *((f"/{n.strip()}", 1.0 / s) for n, s in shapes.items())]:
+    inverse = {f"/{name.strip()}": 1.0 / shape for name, shape in shapes.items() if name}
+    for name, shape in {**shapes, **inverse}.items():
         quotient = ratio / shape
         if len(quotient) < 100 or not np.median(quotient):
             continue
         middle = float(np.median(quotient))
-        if np.quantile(abs(quotient / middle - 1.0), 0.98) < CLOSE:
+        spread = np.quantile(abs(quotient / middle - 1.0), 0.98)
+        if not name and abs(middle - 1.0) <= spread + 1e-9:
+            continue  # right nearly everywhere: no factor
+        if spread < CLOSE:
             cause = _cause(name) if name else factor_named(middle) or _cause(name)
             return f"{middle:.6g}{name} everywhere: {cause}"
     return None
