@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+from array import array
 
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import looks, work
@@ -41,15 +42,14 @@ class Ascent:
             setting.method.points, plan.replicates, target <= FINE, fewest, len(reals)
         )
         self._key = stream(plan.seed, setting.identity, *wo)
-        self._ints = (ctypes.c_int64 * (len(template) // 8)).from_buffer_copy(template)
-        self._ints[0] = self._key  # ctypes wraps its sign
+        self._ints = array("q", template)
+        self._ints[0] = self._key - (self._key >> 63 << 64)
         fall = LATTICES_FALL if setting.method.points == "lattice" else FALL
-        reals = (*reals, target, fewest, hopeless, fall, *steps)
-        self._reals = (ctypes.c_double * len(reals))(*reals)
-        self._end = STATE * setting.means.channels * plan.replicates
-        self._out = (ctypes.c_double * (self._end + setting.means.channels + 1 + len(steps)))()
-        place = ctypes.addressof
-        self._at = place(self._ints), place(self._reals), place(self._out)
+        self._reals = array("d", (*reals, target, fewest, hopeless, fall, *steps))
+        channels = setting.means.channels
+        self._end = STATE * channels * plan.replicates
+        self._out = array("d", bytes(8 * (self._end + channels + 1 + len(steps))))
+        self._at = [a.buffer_info()[0] for a in (self._ints, self._reals, self._out)]
         self._target, self._fewest, self._fall = target, fewest, fall
         self.states: list[float] = []
         self.errors: list[float] = []  # largest relative half-width at each look
@@ -69,7 +69,7 @@ class Ascent:
         ints[STOP] = stop
         if self._setting.entry(*self._at) != 0:
             raise ModelError("the model raised an exception while it was sampled")
-        out, told = self._out[:], self._end + self._setting.means.channels
+        out, told = self._out.tolist(), self._end + self._setting.means.channels
         self.need, self.size = out[told], ints[4]
         self.errors += out[told + 1 + before : told + 1 + ints[TAKEN]]
         self.states = out[: self._end]
@@ -87,7 +87,7 @@ class Ascent:
         factor = self._reals[ints[AT] + looks.FACTORS + ints[TAKEN]]
         ints[TAKEN] += 1
         self.errors.append(looks.widest(self.states, width, self._many, factor))
-        seen = self.states + self._out[self._end : self._end + width]
+        seen = self.states + self._out[self._end : self._end + width].tolist()
         self.need = looks.needed(seen, width, self._many, self._end)
         if not self.reached():
             left = ints[SIZES] - ints[NEXT]
