@@ -22,7 +22,8 @@ import montecarlo_brdf as mb
 from montecarlo_brdf import loading, references, student
 from montecarlo_brdf.integration import methods, work
 from montecarlo_brdf.integration.ascent import Ascent
-from montecarlo_brdf.integration.estimators import Plan, compiled
+from montecarlo_brdf.integration.compiled import compiled
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.sampling.points import NONE, SHAPES
 from montecarlo_brdf.statistics import FLOOR
 from montecarlo_brdf.vectors import from_degrees

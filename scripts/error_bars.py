@@ -24,7 +24,9 @@ from scipy import stats
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.checks import fitness, truth
-from montecarlo_brdf.integration.estimators import Plan, estimates, integrand, integrand_name, query
+from montecarlo_brdf.integration.evaluate import estimates
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand, integrand_name, query
 from montecarlo_brdf.report.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
 from montecarlo_brdf.vectors import from_degrees
 

@@ -37,14 +37,10 @@ from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.cells import Cells
 from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
 from montecarlo_brdf.integration import integrands
-from montecarlo_brdf.integration.estimators import (
-    Plan,
-    Subject,
-    evaluate,
-    integrand_name,
-    query,
-    samplers_of,
-)
+from montecarlo_brdf.integration.evaluate import evaluate
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand_name, query, samplers_of
+from montecarlo_brdf.integration.subject import subject_of
 from montecarlo_brdf.report.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
 from montecarlo_brdf.vectors import from_degrees
 
@@ -77,14 +73,6 @@ def sets(model: Any) -> list[Any]:
     return list(dict.fromkeys((found[0], found[len(found) // 2], found[-1])))
 
 
-def subject(model: Any, one: Any, **more: Any) -> Subject:
-    """A model as the integrands need it."""
-    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf, **more}
-    known = {k: v for k, v in bound.items() if v is not None}
-    identity = (model.name, *model.picks.values(), *map(repr, one))
-    return Subject(identity, known, [model.prepared(one)])
-
-
 def claims(model: Any, one: Any, theta: float) -> Iterator[Claim]:
     """Every kind of mean that `run` judges."""
     wo = from_degrees(theta)
@@ -111,7 +99,7 @@ def _claim(
     seconds = blind if kind == "albedo" and model.sample and model.pdf else []
     functions += [getattr(integrands, f"second_{s}") for s in seconds]
     fixed = (*wo, radiance.WHICH["tilted"]) if sky else query(model, one, wo)
-    q = replicates.Question(subject(model, one, **sky), fixed, functions, ("false alarms", kind))
+    q = replicates.Question(subject_of(model, one, **sky), fixed, functions, ("false alarms", kind))
     row = evaluate(q.subject, q.fixed, functions, Plan(samples=SAMPLES), q.label)[0]
     sight = fitness.look(model, model.prepared(one), wo)
     moments = dict(zip(seconds, row[len(chosen) :], strict=True))
@@ -128,7 +116,7 @@ def _rejected(model: Any, one: Any, wo: Any) -> Claim:
     coordinates = Coordinates(direction, truth.lobe_scale(model, one, direction))
     found = integrate(lambda wi: pointwise(model, one).pdf(direction, wi), coordinates, 1e-11)
     label = ("false alarms", "rejected")
-    q = replicates.Question(subject(model, one), wo, [integrands.rejected_own], label)
+    q = replicates.Question(subject_of(model, one), wo, [integrands.rejected_own], label)
     return Claim("rejected", q, ["own"], 1.0, found.error, [True], known=found.value)
 
 

@@ -27,7 +27,7 @@ import montecarlo_brdf as mb
 from montecarlo_brdf import checks, references
 from montecarlo_brdf.checks import pdf, truth
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.models import ggx
 from montecarlo_brdf.report.judge import decide
 from montecarlo_brdf.verify.run import RUN_SAMPLES

@@ -2,7 +2,7 @@
 
 The tool estimates a mean from R replicates of a stream. Here a stream is asked for thousands of
 them; every R in a row are one estimate, with the same kernel, points and keys as the tool's own
-(`estimators.evaluate` gives the first R of the stream exactly: `check_against_the_tool`).
+(`evaluate` gives the first R of the stream exactly: `check_against_the_tool`).
 """
 from __future__ import annotations
 
@@ -13,7 +13,11 @@ import numpy as np
 from scipy import stats
 
 from montecarlo_brdf.integration import build, kernel, parameters
-from montecarlo_brdf.integration.estimators import Plan, Subject, compiled, evaluate, suited_to
+from montecarlo_brdf.integration.compiled import compiled
+from montecarlo_brdf.integration.evaluate import evaluate
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import suited_to
+from montecarlo_brdf.integration.subject import Subject
 from montecarlo_brdf.integration.work import Ladder
 from montecarlo_brdf.sampling.points import NONE, SHAPES
 from montecarlo_brdf.sampling.streams import stream

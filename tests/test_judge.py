@@ -9,7 +9,7 @@ import pytest
 
 from montecarlo_brdf import student
 from montecarlo_brdf.checks.claim import MeanClaim, Measurement, Reference
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report import mean as judging
 from montecarlo_brdf.report.findings import Finding, Report, Result, worst
 from montecarlo_brdf.report.judge import LEVEL, decide

@@ -9,7 +9,8 @@ from typing import Any
 from montecarlo_brdf import jit
 from montecarlo_brdf.bench.measure import quartiles
 from montecarlo_brdf.bench.workloads import integrand
-from montecarlo_brdf.integration import build, estimators, kernel, parameters, work
+from montecarlo_brdf.integration import build, integrands, kernel, parameters, work
+from montecarlo_brdf.integration.estimators import directional_albedo
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.sampling.keys import NONE
 from montecarlo_brdf.vectors import from_degrees
@@ -34,8 +35,8 @@ def cosine_job(name: str, samples: int, points: str = "independent") -> Callable
     model = load(name)
     p = model.parameters()
     layout, numbers = parameters.pack([model.prepared(p)], kernel.QUERY)
-    integrands = (estimators.integrand("albedo_cosine"),)
-    entry = build.kernel_of(build.Recipe(points, integrands, {"F": model.f}, layout))
+    recipe = build.Recipe(points, (integrands.albedo_cosine,), {"F": model.f}, layout)
+    entry = build.kernel_of(recipe)
     reals = (*from_degrees(60.0), 0.0, *numbers)
     return lambda: work.Ladder(entry, reals, 1, 1, 1).states(samples, NONE)
 
@@ -70,7 +71,7 @@ def growth(rounds: int) -> dict[str, list[tuple[int, float]]]:
     model = load("ggx")
     sets = [model.parameters(alpha=0.1 + 0.01 * k) for k in range(64)]
     angles = [k * 1.4 for k in range(64)]
-    albedo = estimators.directional_albedo
+    albedo = directional_albedo
 
     def lowest(call: Callable[[], Any]) -> float:
         times = []

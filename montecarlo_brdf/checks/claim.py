@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.statistics import Estimate
 
 #: Tolerances are stated, not discovered (design: the verdict is the product).

@@ -16,7 +16,9 @@ from montecarlo_brdf import student
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import Reference
 from montecarlo_brdf.integration.charted import CHARTS
-from montecarlo_brdf.integration.estimators import Plan, estimates, integrand_name
+from montecarlo_brdf.integration.evaluate import estimates
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand_name
 
 NAME = "convergence"
 

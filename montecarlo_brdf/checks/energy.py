@@ -15,7 +15,9 @@ import numpy as np
 from montecarlo_brdf.checks import fitness, furnace, interiors, search, truth
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import BOUND_TOLERANCE, Claim, MeanClaim, Measurement, Reference
-from montecarlo_brdf.integration.estimators import Plan, estimates, integrand_name, samplers_of
+from montecarlo_brdf.integration.evaluate import estimates
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec
 

@@ -25,7 +25,9 @@ from montecarlo_brdf.checks.claim import (
     Reference,
 )
 from montecarlo_brdf.integration import adaptive
-from montecarlo_brdf.integration.estimators import Plan, estimates, integrand_name, samplers_of
+from montecarlo_brdf.integration.evaluate import estimates
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.vectors import Vec
 

@@ -12,7 +12,9 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.checks.claim import AGREEMENT_TOLERANCE, MeanClaim, Measurement, Reference
 from montecarlo_brdf.integration import integrands
-from montecarlo_brdf.integration.estimators import Plan, Subject, evaluate
+from montecarlo_brdf.integration.evaluate import evaluate
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.subject import Subject
 from montecarlo_brdf.vectors import Vec, from_degrees
 
 NAME = "identities"

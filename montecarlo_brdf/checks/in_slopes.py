@@ -16,7 +16,9 @@ from montecarlo_brdf.checks import fitness
 from montecarlo_brdf.checks.case import pointwise
 from montecarlo_brdf.checks.claim import Measurement
 from montecarlo_brdf.integration import scattered
-from montecarlo_brdf.integration.estimators import Plan, Subject, evaluate
+from montecarlo_brdf.integration.evaluate import evaluate
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.subject import Subject
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec, mirrored
 

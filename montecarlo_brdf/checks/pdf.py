@@ -28,7 +28,8 @@ from montecarlo_brdf.checks.claim import (
 )
 from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
 from montecarlo_brdf.checks.truth import lobe_scale
-from montecarlo_brdf.integration.estimators import Plan, estimates
+from montecarlo_brdf.integration.evaluate import estimates
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.statistics import Estimate, hidden_error
 
 NAME = "pdf"

@@ -27,13 +27,10 @@ from montecarlo_brdf.checks.claim import (
 )
 from montecarlo_brdf.checks.lobe_coordinates import integrate
 from montecarlo_brdf.integration import integrands
-from montecarlo_brdf.integration.estimators import (
-    Plan,
-    Subject,
-    evaluate,
-    integrand_name,
-    samplers_of,
-)
+from montecarlo_brdf.integration.evaluate import evaluate
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
+from montecarlo_brdf.integration.subject import subject_of
 
 NAME = "radiance"
 QUESTION = "does it hold under light that is not constant?"
@@ -108,13 +105,8 @@ def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measuremen
     model, wo = case.model, case.wo(theta)
     chosen = samplers_of(model)
     functions = [getattr(integrands, integrand_name(model, "radiance", s)) for s in chosen]
-    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf, "SKY": either_sky}
-    subject = Subject(
-        (model.name, *model.picks.values(), *map(repr, case.one), name),
-        {k: v for k, v in bound.items() if v is not None},
-        [model.prepared(case.one)],
-    )
-    row = evaluate(subject, (*wo, WHICH[name]), functions, plan, (NAME,))[0]
+    subject = subject_of(model, case.one, SKY=either_sky)
+    row = evaluate(subject, (*wo, WHICH[name]), functions, plan, (name, NAME))[0]
     sight = fitness.look(model, model.prepared(case.one), wo)
     return [
         Measurement(s, e, fitness.reason_unfit(s, e, sight, None))

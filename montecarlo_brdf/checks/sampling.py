@@ -20,7 +20,7 @@ from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.cells import COARSE, Cells
 from montecarlo_brdf.checks.claim import Claim, Fit, FitClaim, Skip
 from montecarlo_brdf.integration.counting import COLUMNS, ROWS
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.sampling.streams import stream
 
 NAME = "sampling"

@@ -20,7 +20,7 @@ from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.directions import MIRROR, vectors
 from montecarlo_brdf.checks.lobe_coordinates import grid
 from montecarlo_brdf.integration import scattered
-from montecarlo_brdf.integration.estimators import samplers_of
+from montecarlo_brdf.integration.samplers import samplers_of
 from montecarlo_brdf.sampling.spread import net, spread
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.vectors import Vec, from_degrees

@@ -11,8 +11,10 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.integration.ascent import FIRST, Ascent
-from montecarlo_brdf.integration.estimators import Plan, estimates, integrand_name
+from montecarlo_brdf.integration.evaluate import estimates
 from montecarlo_brdf.integration.methods import Method, Setting, given, methods, prepare, told
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand_name
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate, estimates_of
 from montecarlo_brdf.vectors import Vec

@@ -8,10 +8,11 @@ from array import array
 
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import looks, work
-from montecarlo_brdf.integration.estimators import Plan, compiled
+from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.kernel import STATE
 from montecarlo_brdf.integration.looks import AT, NEXT, SIZES, STOP, TABLE, TAKEN
 from montecarlo_brdf.integration.methods import Setting
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.vectors import Vec

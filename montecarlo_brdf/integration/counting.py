@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import paced, parameters
+from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.pointwise import TOGETHER, Listing
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.independent import independent_axis
@@ -115,8 +116,6 @@ def drawn(model: Model, p: Any, cut: Cut, key: int, samples: int, threads: int =
     """How many draws of the model's sampler lie in each cell, and last how many were rejected."""
     import numpy as np
 
-    from montecarlo_brdf.integration.estimators import compiled
-
     layout, numbers = parameters.pack([model.prepared(p)], 0)
     reals = np.concatenate([numbers, cut.numbers])
     signed = key - (1 << 64) if key >> 63 else key
@@ -138,8 +137,6 @@ def drawn(model: Model, p: Any, cut: Cut, key: int, samples: int, threads: int =
 def placed(model: Model, p: Any, cut: Cut, w: Any) -> Any:
     """The cells of directions (n, 3) above the horizon."""
     import numpy as np
-
-    from montecarlo_brdf.integration.estimators import compiled
 
     layout, _ = parameters.pack([model.prepared(p)], 0)
     kernel = compiled(model.name, Listing(places, {}, layout))

@@ -6,16 +6,17 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.integration import build, charted, kernel, parameters
-from montecarlo_brdf.integration.estimators import (
+from montecarlo_brdf.integration.compiled import compiled
+from montecarlo_brdf.integration.looks import Climb
+from montecarlo_brdf.integration.samplers import (
     charts_of,
-    compiled,
     integrand,
     integrand_name,
     query,
     samplers_of,
     suited_to,
 )
-from montecarlo_brdf.integration.looks import Climb
+from montecarlo_brdf.integration.subject import functions_of, identity_of
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.sampling.points import SETS
 
@@ -75,12 +76,10 @@ def told(method: Method, rejected: tuple[str, ...] = ()) -> str:
 def prepare(model: Model, p: Any, kind: Any, method: Method) -> Setting:
     """Kernel and numbers of a case. `kind` keeps equal tuples of different variants apart."""
     layout, numbers = parameters.pack([model.prepared(c) for c in channels(p)], kernel.QUERY)
-    functions = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
-    bound = {k: v for k, v in functions.items() if v is not None}
     average = suited_to(method.points, integrand(integrand_name(model, "albedo", method.sampler)))
-    means = build.Recipe(method.points, (average,), bound, layout)
+    means = build.Recipe(method.points, (average,), functions_of(model), layout)
     seen = getattr(charted, f"seen_{method.sampler}", None)
-    identity = (method.points, model.name, *model.picks.values(), *map(repr, p), "albedo")
+    identity = (method.points, *identity_of(model, p), "albedo")
     return Setting(
         method,
         means,

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import build, paced, parameters
+from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.native import NativeKernel
 from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.model import Model
@@ -106,8 +107,6 @@ class Pointwise:
 
     def _run(self, listing: Listing, a: Any, b: Any, width: int) -> Any:
         import numpy as np
-
-        from montecarlo_brdf.integration.estimators import compiled
 
         kernel: NativeKernel = compiled(self.model.name, listing)
         a, b = np.broadcast_arrays(np.atleast_2d(a), np.atleast_2d(b))

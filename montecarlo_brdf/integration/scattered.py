@@ -10,8 +10,11 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.integration import build, estimators, integrands, paced, parameters
+from montecarlo_brdf.integration import build, integrands, paced, parameters
+from montecarlo_brdf.integration.compiled import compiled
+from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
 from montecarlo_brdf.integration.specialise import Specialiser
+from montecarlo_brdf.integration.subject import functions_of
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.warps import random_hemisphere, random_hemisphere_cosine
 
@@ -196,13 +199,11 @@ def rows(model: Model, columns: Mapping[str, Any], base: Any, n: int) -> Rows:
 def mean_values(model: Model, quantity: str, nodes: Any, places: Any, sets: Rows) -> Any:
     """A ("albedo") or R ("reverse") at (n, 4) places: by the model's own sampler with nodes in
     [0, 1)^3, or in slopes of the half vector where it has none."""
-    name = estimators.integrand_name(model, quantity, "own")
-    own = estimators.samplers_of(model, quantity)[-1] == "own"
+    name = integrand_name(model, quantity, "own")
+    own = samplers_of(model, quantity)[-1] == "own"
     slopes_of = albedo_slopes if quantity == "albedo" else reverse_slopes
     function = getattr(integrands, name) if own else slopes_of
-    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
-    functions = {k: v for k, v in bound.items() if v is not None}
-    return _run(model, (means, function, functions), nodes, places, sets)
+    return _run(model, (means, function, functions_of(model)), nodes, places, sets)
 
 
 def pair_values(model: Model, wo: Any, wi: Any, sets: Rows) -> Any:
@@ -217,7 +218,7 @@ def _run(model: Model, made_of: tuple[Any, Any, Any], nodes: Any, places: Any, s
     import numpy as np
 
     layout = parameters.following(sets.shape, places.shape[1])
-    kernel = estimators.compiled(model.name, Listing(*made_of, layout))
+    kernel = compiled(model.name, Listing(*made_of, layout))
     table = np.concatenate([places, sets.numbers], axis=1)
     stride = table.shape[1]
     data = np.ascontiguousarray(np.concatenate([nodes.ravel(), table.ravel()]), dtype=np.float64)

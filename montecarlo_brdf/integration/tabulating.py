@@ -11,6 +11,7 @@ from typing import Any
 
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import paced, parameters
+from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.pointwise import TOGETHER, Listing
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.independent import independent_axis
@@ -81,8 +82,6 @@ def densities(ints: Any, reals: Any, out: Any) -> None:
 def tabulated(model: Model, p: Any, place: Any, size: tuple[int, int], key: int = 0) -> Any:
     """(probabilities, directions) of nx x nb squares, x first; directions only with a key."""
     import numpy as np
-
-    from montecarlo_brdf.integration.estimators import compiled
 
     layout, numbers = parameters.pack([model.prepared(p)], 0)
     kernel = compiled(model.name, Listing(densities, {"PDF": model.pdf}, layout))

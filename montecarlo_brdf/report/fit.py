@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 
 from montecarlo_brdf.checks.claim import FitClaim
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.findings import Finding
 from montecarlo_brdf.report.looks import FRESH, looks
 

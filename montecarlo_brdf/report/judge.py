@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from montecarlo_brdf.checks.claim import Claim, ExactClaim, FitClaim, Skip
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.exact import exact_finding
 from montecarlo_brdf.report.findings import Finding
 from montecarlo_brdf.report.fit import fit_finding

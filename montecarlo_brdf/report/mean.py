@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from montecarlo_brdf.checks.claim import MeanClaim, Measurement
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.findings import Finding
 from montecarlo_brdf.report.looks import FRESH, GROWTH, looks
 from montecarlo_brdf.report.opinions import Opinion, changed, judged, overall, resolves, telling

@@ -11,7 +11,8 @@ import math
 from typing import Any
 
 from montecarlo_brdf.integration import adaptive
-from montecarlo_brdf.integration.estimators import Plan, charts_of
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import charts_of
 from montecarlo_brdf.scene.pixels import PLACE, means
 from montecarlo_brdf.scene.plan import Work
 from montecarlo_brdf.scene.radiance import constant_values

@@ -18,7 +18,7 @@ from montecarlo_brdf.checks.claim import (
     Measurement,
     Reference,
 )
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.scene import plan as planning
 from montecarlo_brdf.scene import radiance, standard, truth
 from montecarlo_brdf.scene.plan import ScenePlan, View

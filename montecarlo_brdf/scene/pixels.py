@@ -15,8 +15,9 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import build, parameters
-from montecarlo_brdf.integration.estimators import compiled
+from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.specialise import Specialiser
+from montecarlo_brdf.integration.subject import functions_of
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key
 from montecarlo_brdf.scene import integrands, skies
@@ -120,8 +121,7 @@ class Recipe(NamedTuple):
 def recipe_of(work: Any) -> tuple[Recipe, list[float]]:
     """The kernel of a planned work, and its parameters' numbers."""
     model, sky = work.model, skies.FUNCTIONS[type(work.sets[0][1])]
-    functions = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
-    functions["SKY"] = _bound(placed_value, sky.radiance)
+    functions = {**functions_of(model), "SKY": _bound(placed_value, sky.radiance)}
     if sky.sample:
         functions["SKY_SAMPLE"] = _bound(placed_sample, sky.sample)
         functions["SKY_PDF"] = _bound(placed_value, sky.pdf)
@@ -130,8 +130,7 @@ def recipe_of(work: Any) -> tuple[Recipe, list[float]]:
     name = "weighted" if work.method == "own" and weighted(model) else work.method
     name = "cosine" if name == "one value" else name
     layout, numbers = parameters.pack([Lit(model.prepared(p), s) for p, s in work.sets], 0)
-    used = {k: v for k, v in functions.items() if v is not None}
-    return Recipe(getattr(integrands, name), used, layout), numbers
+    return Recipe(getattr(integrands, name), functions, layout), numbers
 
 
 @functools.cache

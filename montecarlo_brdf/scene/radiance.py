@@ -8,7 +8,9 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.checks.claim import Measurement
 from montecarlo_brdf.integration import probe
-from montecarlo_brdf.integration.estimators import Plan, Subject, evaluate
+from montecarlo_brdf.integration.evaluate import evaluate
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.subject import Subject, functions_of
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import integrands, skies
 from montecarlo_brdf.scene.methods import unscaled
@@ -132,9 +134,7 @@ def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str |
     model = work.model
     sky = skies.FUNCTIONS[type(work.sets[0][1])]
     functions = {
-        "F": model.f,
-        "SAMPLE": model.sample,
-        "PDF": model.pdf,
+        **functions_of(model),
         "SKY": sky.radiance,
         "SKY_SAMPLE": sky.sample or integrands.cosine_sample,
         "SKY_PDF": sky.pdf or integrands.cosine_pdf,
@@ -142,7 +142,7 @@ def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str |
     name = "weighted" if work.method == "own" and weighted(model) else work.method
     subject = Subject(
         (model.name, *model.picks.values(), *(f"{p!r} {skies.identity(s)}" for p, s in work.sets)),
-        {k: v for k, v in functions.items() if v is not None},
+        functions,
         [Lit(model.prepared(p), shape) for p, shape in work.sets],
     )
     rows = evaluate(subject, wo, [getattr(integrands, name)], sampling, ("radiance", work.method))

@@ -8,7 +8,9 @@ from typing import Any
 
 from montecarlo_brdf.checks.claim import Claim
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration.estimators import SAMPLERS, Plan, check_samples, samplers_of
+from montecarlo_brdf.integration.arguments import check_samples
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import SAMPLERS, samplers_of
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Finding, Report, Result
 from montecarlo_brdf.report.judge import decide

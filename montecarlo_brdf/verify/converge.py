@@ -12,13 +12,10 @@ from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import Reference
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.integration import probe
-from montecarlo_brdf.integration.estimators import (
-    Plan,
-    charts_of,
-    check_theta,
-    directional_albedo,
-    samplers_of,
-)
+from montecarlo_brdf.integration.arguments import check_theta
+from montecarlo_brdf.integration.estimators import directional_albedo
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import charts_of, samplers_of
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Finding, Report, Result
 from montecarlo_brdf.sampling.points import SETS

@@ -11,7 +11,7 @@ from typing import Any
 
 from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
 from montecarlo_brdf.integration import probe
-from montecarlo_brdf.integration.estimators import Plan
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.findings import Finding, Report, Result
 from montecarlo_brdf.report.judge import decide
 from montecarlo_brdf.report.sentences import place

@@ -14,7 +14,8 @@ from typing import Any
 from montecarlo_brdf import checks
 from montecarlo_brdf.checks.case import Case, searched
 from montecarlo_brdf.errors import TooSlow, UserError, unknown
-from montecarlo_brdf.integration.estimators import Plan, check_theta
+from montecarlo_brdf.integration.arguments import check_theta
+from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Finding, Report, Result
 from montecarlo_brdf.report.judge import decide

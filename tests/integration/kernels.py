@@ -22,7 +22,7 @@ def functions(model: Model) -> dict[str, Any]:
 
 def job(model: Model, rows: Sequence[Any], names: Sequence[str], points: str, key: int,
         samples: int, replicates: int = 1) -> work.Job:  # fmt: skip
-    """What `estimators.evaluate` asks of `work.run`, with its key chosen here."""
+    """What `evaluate` asks of `work.run`, with its key chosen here."""
     layout, numbers = parameters.pack([model.prepared(p) for p in rows], kernel.QUERY)
     kinds = tuple(getattr(integrands, n) for n in names)
     entry = build.kernel_of(build.Recipe(points, kinds, functions(model), layout))

@@ -9,7 +9,7 @@ import pytest
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.integration import work
-from montecarlo_brdf.integration.estimators import integrand_name, samplers_of
+from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
 from montecarlo_brdf.statistics import Moments
 
 #: model -> quantities; every integrand at least once

@@ -1,0 +1,32 @@
+"""Arguments of estimators that come from users: checked, or a UserError."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from montecarlo_brdf.errors import UserError
+
+MOST_SAMPLES = 1 << 40
+
+
+def check_samples(samples: Any) -> int:
+    """A number of samples between 1 and 2^40, or a UserError."""
+    if (
+        isinstance(samples, bool)
+        or not isinstance(samples, int)
+        or not 1 <= samples <= MOST_SAMPLES
+    ):
+        raise UserError(f"samples must be a whole number from 1 to 2^40, not {samples}")
+    return samples
+
+
+def check_theta(theta_deg: Any, name: str = "theta_o_deg") -> float:
+    """A polar angle in [0, 90) degrees, or a UserError."""
+    try:
+        theta = float(theta_deg)
+    except (TypeError, ValueError):
+        theta = math.nan
+    if not 0.0 <= theta < 90.0:
+        raise UserError(f"{name} must be an angle in [0, 90) degrees, not {theta_deg}")
+    return theta

@@ -1,0 +1,33 @@
+"""What is integrated."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.model import Model, channels
+
+
+class Subject(NamedTuple):
+    """What is integrated: a name for its streams, functions to bind, and K parameter sets."""
+
+    identity: tuple[str, ...]
+    functions: Mapping[str, Any]
+    sets: list[Any]
+
+
+def subject_of(model: Model, p: Any, **more: Any) -> Subject:
+    """A model with one parameter set, colours channel by channel; `more` functions to bind."""
+    functions = {**functions_of(model), **more}
+    return Subject(identity_of(model, p), functions, [model.prepared(c) for c in channels(p)])
+
+
+def identity_of(model: Model, p: Any) -> tuple[str, ...]:
+    """What tells a case's stream from others."""
+    return (model.name, *model.picks.values(), *map(repr, p))
+
+
+def functions_of(model: Model) -> dict[str, Any]:
+    """The functions that a model has, by the names under which integrands call them."""
+    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
+    return {k: v for k, v in bound.items() if v is not None}
