@@ -33,6 +33,12 @@ def _sine_squared(mu: Array) -> Array:
     return np.maximum((1.0 - mu) * (1.0 + mu), TINY)
 
 
+def _log_sine_squared(mu: Array) -> Array:
+    """ln(1 - mu^2): a huge n multiplies the rounding of 1 - mu^2 where mu is small."""
+    low = np.log1p(-(np.minimum(mu, 0.5) ** 2))
+    return np.where(mu < 0.5, low, np.log(_sine_squared(mu)))
+
+
 def ggx(alpha: float) -> Distribution:
     """Walter et al. 2007, eqs. 33-34."""
 
@@ -80,7 +86,7 @@ def blinn_phong(n: float) -> Distribution:
         z = np.sqrt(np.sqrt(np.clip(1.0 - mu / end, 0.0, 1.0)))
         hidden = np.polynomial.chebyshev.chebval(2.0 * z - 1.0, series)
         scale = half_step(0.5 * n + 1.0) / (math.sqrt(np.pi) * (n + 1.0))
-        facing = scale * np.exp((0.5 * n + 1.0) * np.log(_sine_squared(mu))) / mu
+        facing = scale * np.exp((0.5 * n + 1.0) * _log_sine_squared(mu)) / mu
         return np.where(mu < end, facing - 0.5 * hidden, 0.0)
 
     def p22(t: Array) -> Array:

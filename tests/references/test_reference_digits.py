@@ -12,6 +12,7 @@ from reference_data import cosine
 
 from montecarlo_brdf import references
 from montecarlo_brdf.references._gamma import half_step
+from montecarlo_brdf.references._microfacet import blinn_phong
 from montecarlo_brdf.references._rules import gauss, tanh_sinh
 
 STEEP = (0.01, 1.0, 40.0, 89.0, 89.9, 89.99)
@@ -125,6 +126,17 @@ def test_ggx(alpha: float, theta: float) -> None:
 def test_half_step(a: float) -> None:
     exact = mp.exp(mp.loggamma(mp.mpf(a) + 0.5) - mp.loggamma(mp.mpf(a)))
     assert abs(half_step(a) / exact - 1) < 2e-15
+
+
+@pytest.mark.parametrize(("n", "mu"), [(1e6, 1.745e-4), (1e6, 1e-3), (1e4, 0.01), (3.0, 0.6)])
+def test_what_blinn_phong_hides(n: float, mu: float) -> None:
+    """Lambda as defined, (1/nu) int (x - nu) P2(x) dx beyond nu = cot theta: at n = 1e6 it was
+    once off by 2e-10, a million roundings of 1 - mu^2."""
+    m, nu = mp.mpf(n), mu / mp.sqrt(1 - mp.mpf(mu) ** 2)
+    scale = mp.exp(mp.loggamma((m + 3) / 2) - mp.loggamma(m / 2 + 1)) / mp.sqrt(mp.pi)
+    edges = [j * mp.sqrt(2 / (m + 2)) for j in (0, 1, 4, 14, 300)]
+    tail = mp.quad(lambda z: z * (1 + (nu + z) ** 2) ** (-(m + 3) / 2), [*edges, mp.inf])
+    assert abs(blinn_phong(n).lam(np.asarray(mu)) - scale * tail / nu) < 1e-14
 
 
 @pytest.mark.parametrize("n", [8, 30, 120])
