@@ -226,7 +226,8 @@ BETWEEN = """
 ## From where on
 
 A on either side of the place where a model begins to reflect too much, or at the place that the
-literature names; bold where `A <= 1` is refuted.
+literature names; bold where `A <= 1` is refuted. (What is above 1 and not bold is undecided with
+the default number of samples, so near to the horizon and to 1.)
 
 | what | A | `brdf-check furnace --model` |
 |---|---|---|"""
