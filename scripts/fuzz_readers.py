@@ -32,7 +32,7 @@ with atheris.instrument_imports(include=["montecarlo_brdf", "tomllib"]):
     from montecarlo_brdf.integration.partial_sums import PartialSums
     from montecarlo_brdf.report import baseline, read
     from montecarlo_brdf.report.write import write_text
-    from montecarlo_brdf.scene import image, make
+    from montecarlo_brdf.scene import image, image_sky, make
     from montecarlo_brdf.scene import read as read_scenes
 
 ROOT = Path(__file__).parents[1]
@@ -60,7 +60,7 @@ def _report(path: Path) -> None:
 
 def _image(suffix: str) -> Callable[[Path], None]:
     def reader(path: Path) -> None:
-        image.texel_sky(image.read_image(path.rename(path.with_suffix(suffix))))
+        image_sky.texel_sky(image.read_image(path.rename(path.with_suffix(suffix))))
 
     return reader
 

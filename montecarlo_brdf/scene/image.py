@@ -1,4 +1,4 @@
-"""Latitude-longitude images as skies: PNG (sRGB, made linear), Radiance HDR, OpenEXR, NumPy.
+"""Latitude-longitude image files: PNG (sRGB, made linear), Radiance HDR, OpenEXR, NumPy.
 
 The image is a panorama: its top row is the zenith (the surface's normal), its left edge azimuth
 -180 degrees, its middle azimuth 0.
@@ -6,15 +6,15 @@ The image is a panorama: its top row is the zenith (the surface's normal), its l
 
 from __future__ import annotations
 
-import hashlib
 import os
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.scene.skies import Image
-
-MOST_TEXELS = 1 << 26  # 8192 x 8192: 1.6 GB of doubles in RGB
+from montecarlo_brdf.scene.exr import read_exr
+from montecarlo_brdf.scene.image_size import check_size
+from montecarlo_brdf.scene.png import read_png
+from montecarlo_brdf.scene.rgbe import read_hdr
 
 
 class Texels(NamedTuple):
@@ -63,26 +63,6 @@ def _checked(path: Path, values: Any) -> Any:
     return np.ascontiguousarray(values)
 
 
-def check_size(path: Path, width: int, height: int) -> None:
-    """Refuse what would not fit before it is read."""
-    available = (
-        os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-        if hasattr(os, "sysconf")
-        else 1 << 33
-    )
-    need = width * height * 3 * 8 * 3  # doubles, their tables, one copy
-    if width * height > MOST_TEXELS or need > available // 2:
-        raise UserError(
-            f"image {path} is too large: {width} x {height} texels need {need / 1e9:.3g} GB"
-        )
-
-
-def _png(path: Path) -> Any:
-    from montecarlo_brdf.scene.png import read_png
-
-    return read_png(path)
-
-
 def _npy(path: Path) -> Any:
     import numpy as np
 
@@ -92,61 +72,4 @@ def _npy(path: Path) -> Any:
     return np.array(values)
 
 
-def _exr(path: Path) -> Any:
-    """Through OpenEXR's own bindings, an extra."""
-    import numpy as np
-
-    try:
-        import OpenEXR
-    except ImportError as error:
-        raise UserError(
-            "reading .exr images needs OpenEXR: pip install 'montecarlo-brdf[scene]'"
-        ) from error
-    with OpenEXR.File(str(path), header_only=True) as file:
-        low, high = file.header()["dataWindow"]
-        check_size(path, int(high[0] - low[0]) + 1, int(high[1] - low[1]) + 1)
-    with OpenEXR.File(str(path)) as file:
-        found = file.channels()
-        name = next((n for n in ("RGB", "RGBA", "Y") if n in found), None)
-        if name is None:
-            raise UserError(f"image {path} has channels {', '.join(found)}, not RGB")
-        return np.array(found[name].pixels)
-
-
-def _hdr(path: Path) -> Any:
-    from montecarlo_brdf.scene.rgbe import read_hdr
-
-    return read_hdr(path)
-
-
-_READERS = {"png": _png, "npy": _npy, "exr": _exr, "hdr": _hdr}
-
-
-def texel_sky(texels: Texels) -> tuple[tuple[Image, ...], Any]:
-    """One shape per channel, and the arrays that must stay alive while they are used."""
-    import numpy as np
-
-    height, width, count = texels.values.shape
-    shapes, keep = [], []
-    for channel in range(count):
-        plane = np.ascontiguousarray(texels.values[:, :, channel])
-        table = cumulated(plane)
-        keep += [plane, table]
-        addresses = (float(plane.ctypes.data), float(table.ctypes.data))
-        digest = hashlib.blake2b(plane.tobytes(), digest_size=6).digest()
-        content = float(int.from_bytes(digest, "little"))
-        shapes.append(Image(*addresses, float(width), float(height), content))
-    return tuple(shapes), keep
-
-
-def cumulated(plane: Any, below: bool = False) -> Any:
-    """Shares of radiance times solid angle, summed up; `below`: also under the horizon."""
-    import numpy as np
-
-    height = len(plane)
-    edges = np.cos(np.linspace(0.0, np.pi, height + 1))
-    share = np.maximum(edges[:-1] - edges[1:], 0.0)[:, None]
-    if not below:  # no light from there
-        share[np.arange(height) * np.pi / height >= np.pi / 2] = 0.0
-    table = np.cumsum((plane * share).ravel())
-    return table / table[-1] if table[-1] > 0.0 else np.linspace(0.0, 1.0, len(table))
+_READERS = {"png": read_png, "npy": _npy, "exr": read_exr, "hdr": read_hdr}

@@ -9,6 +9,8 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+from montecarlo_brdf.scene.image_size import check_size
+
 DEEP = ("RGB;16B", "RGBA;16B")  # Pillow keeps the upper byte of these only
 
 
@@ -16,19 +18,17 @@ def read_png(path: Path) -> Any:
     """Linear values (height, width) or (height, width, channels) in [0, 1]."""
     import numpy as np
 
-    from montecarlo_brdf.scene.image import check_size
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of Pillow's, on large images: checked here
-        upper, raw = _pixels(path, check_size)
+        upper, raw = _pixels(path)
         if raw in DEEP:
-            lower, _ = _pixels(path, check_size, raw.replace("16B", "16L"))
+            lower, _ = _pixels(path, raw.replace("16B", "16L"))
             upper = (256.0 * upper + lower) / 257.0
     s = upper / 255.0
     return np.where(s <= 0.04045, s / 12.92, ((s + 0.055) / 1.055) ** 2.4)
 
 
-def _pixels(path: Path, check_size: Any, as_raw: str | None = None) -> tuple[Any, Any]:
+def _pixels(path: Path, as_raw: str | None = None) -> tuple[Any, Any]:
     """Values from 0 to 255 and how the file stores them; `as_raw` reads them another way."""
     import numpy as np
     from PIL import Image

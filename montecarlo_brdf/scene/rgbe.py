@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.scene.image_size import check_size
 
 
 def read_hdr(path: Path) -> Any:
     """Linear RGB (height, width, 3)."""
     import numpy as np
-
-    from montecarlo_brdf.scene.image import check_size
 
     content = path.read_bytes()
     if not content.startswith((b"#?RADIANCE", b"#?RGBE")):

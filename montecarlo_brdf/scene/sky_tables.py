@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.scene import skies
-from montecarlo_brdf.scene.image import Texels, read_image, texel_sky
+from montecarlo_brdf.scene.image import Texels, read_image
+from montecarlo_brdf.scene.image_sky import texel_sky
 from montecarlo_brdf.scene.skies import Sky
 from montecarlo_brdf.scene.toml import Table
 from montecarlo_brdf.vectors import NORMAL, Vec

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.scene import skies
-from montecarlo_brdf.scene.image import cumulated
+from montecarlo_brdf.scene.image_sky import cumulated
 from montecarlo_brdf.scene.scene import Scene
 
 

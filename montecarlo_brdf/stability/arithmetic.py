@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.stability.exact_functions import exact_functions
 
 DIGITS = 50
 
@@ -98,7 +99,6 @@ def exact() -> Arithmetic:
         import mpmath
     except ImportError as error:
         raise UserError("the exact arithmetic of `stress` needs the package mpmath") from error
-    from montecarlo_brdf.stability.elementary import exact_functions
 
     context = mpmath.mp.clone()
     context.dps = DIGITS

@@ -8,7 +8,8 @@ import pytest
 from montecarlo_brdf.references import _irradiance, _sky
 from montecarlo_brdf.scene import skies, truth
 from montecarlo_brdf.scene.harmonics import harmonics
-from montecarlo_brdf.scene.image import Texels, texel_sky
+from montecarlo_brdf.scene.image import Texels
+from montecarlo_brdf.scene.image_sky import texel_sky
 from montecarlo_brdf.scene.sky_tables import cap_of
 from montecarlo_brdf.vectors import from_degrees
 
