@@ -13,6 +13,7 @@ STYLES = {
 }
 GUIDES = (-0.5, -1.0, -2.0)
 SMALLEST = 1e-16  # an exact estimate has no place on a log axis
+ROOM = 0.4  # of the decades above the reference's error, below it for the legend
 
 
 def convergence_figure(report: dict[str, Any]) -> Any:
@@ -56,6 +57,8 @@ def _panel(axes: Any, findings: list[dict[str, Any]], sampler: str) -> None:
     axes.axhline(floor, color="0.4", linewidth=0.8, linestyle=dashes, label="reference's error")
     axes.set_title(sampler.replace("_", "-"), fontsize=10)
     axes.grid(alpha=0.25)
+    low, high = axes.get_ylim()  # panels share it: room for the legend, made once
+    axes.set_ylim(min(low, floor * (floor / high) ** ROOM), high)
     axes.legend(fontsize=7, loc="lower left")
 
 
