@@ -12,8 +12,8 @@ from montecarlo_brdf.checks.lobe_coordinates import Coordinates
 from montecarlo_brdf.checks.truth import lobe_scale
 from montecarlo_brdf.integration import counting, tabulating
 
-FINE = (768, 512)  # the grid on which the density is tabulated
-COARSE = (384, 256)
+COARSE, FINE, FINEST = (384, 256), (768, 512), (1536, 1024)  # grids of tabulated densities
+UNSURE = 0.01  # a rejected share that steps of the density may feign
 JITTERED = 0x5EED  # the key of places at random in their squares
 CELLS = counting.ROWS * counting.COLUMNS
 
@@ -37,14 +37,18 @@ class Cells:
         return marginal, columns, float(marginal[-1])
 
     @functools.cached_property
-    def error(self) -> float:
-        """Distance between the cells' probabilities and those by another grid, at random in each
-        square: what a density with steps leaves unresolved."""
+    def jittered(self) -> Any:
+        """The cells' probabilities by another grid, at random in each square."""
         density, wi = tabulating.tabulated(self.model, self.p, self.place, self.size, JITTERED)
         cells = counting.placed(self.model, self.p, self.cut, wi)
-        found = np.bincount(cells, weights=density, minlength=CELLS)
+        return np.bincount(cells, weights=density, minlength=CELLS)
+
+    @property
+    def error(self) -> float:
+        """Distance between the cells' probabilities by the two grids: what a density with steps
+        leaves unresolved."""
         each = self.tables[2] / CELLS
-        return float(np.sqrt(np.sum((found - each) ** 2 / each)))
+        return float(np.sqrt(np.sum((self.jittered - each) ** 2 / each)))
 
     @property
     def place(self) -> tuple[float, ...]:
@@ -69,6 +73,13 @@ class Cells:
         """Of each cell, and last of a rejected draw."""
         mass = self.tables[2]
         return np.array([mass / CELLS] * CELLS + [max(1.0 - mass, 0.0)])
+
+    @functools.cached_property
+    def rejects(self) -> bool:
+        """Whether draws are rejected at all, as far as the two grids agree on it."""
+        rejected = 1.0 - self.tables[2]
+        unsure = abs(float(np.sum(self.jittered)) - self.tables[2]) if rejected < UNSURE else 0.0
+        return rejected > 3.0 * unsure
 
 
 def edges(cumulated: Any, parts: int) -> Any:

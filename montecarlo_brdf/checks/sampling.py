@@ -17,7 +17,7 @@ import numpy as np
 
 from montecarlo_brdf.checks import interiors
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.cells import COARSE, Cells
+from montecarlo_brdf.checks.cells import COARSE, FINE, FINEST, UNSURE, Cells
 from montecarlo_brdf.checks.claim import Claim, Fit, FitClaim, Skip
 from montecarlo_brdf.integration.counting import COLUMNS, ROWS
 from montecarlo_brdf.integration.plan import Plan
@@ -30,6 +30,7 @@ TOLERANCE = 0.015
 DRAWS = 1.5  # per sample allowed: with 2^20 draws honest ones of two standard deviations stay open
 MOST = 3 << 19  # draws per look
 FEWER = 1 << 18  # samples elsewhere
+SUSPICIOUS = 1e-3  # a p-value that makes grids finer
 HEAVIEST = 1.02  # a mass that cells can stand
 
 
@@ -43,28 +44,39 @@ def claims(case: Case) -> Iterator[Claim]:
             "distance of draws from pdf",
             case.where(theta_o_deg=theta),
             case.tolerated(TOLERANCE),
-            functools.partial(fit, case, theta, Cells(case, theta)),
+            refined(case, theta, case.tolerated(TOLERANCE), FINE, FINEST),
             property=PROPERTY,
         )
     for other, theta in interiors.elsewhere(case):
-        cells = Cells(other, theta, COARSE)
-        if 0.0 < cells.tables[2] < HEAVIEST:  # else see `pdf`
-            yield _elsewhere(other, theta, cells)
+        if 0.0 < Cells(other, theta, COARSE).tables[2] < HEAVIEST:  # else see `pdf`
+            yield _elsewhere(other, theta)
 
 
-def _elsewhere(case: Case, theta: float, cells: Cells) -> FitClaim:
+def _elsewhere(case: Case, theta: float) -> FitClaim:
     """The same with fewer draws and a wider tolerance, at other azimuths and parameters."""
-
-    def measure(plan: Plan, level: float) -> Fit:
-        return fit(case, theta, cells, plan._replace(samples=min(plan.samples, FEWER)), level)
-
+    tolerance = 2.0 * case.tolerated(TOLERANCE)
+    measure = refined(case, theta, tolerance, COARSE, FINE, FINEST)
     return FitClaim(
         "distance of draws from pdf",
         {**case.where(theta_o_deg=theta), **interiors.changed(case, case.one)},
-        2.0 * case.tolerated(TOLERANCE),
-        measure,
+        tolerance,
+        lambda plan, level: measure(plan._replace(samples=min(plan.samples, FEWER)), level),
         property=PROPERTY,
     )
+
+
+def refined(case: Case, theta: float, tolerance: float, *sizes: tuple[int, int]) -> Any:
+    """A measurement on finer grids for as long as draws look wrong on coarser ones."""
+    cells = functools.cache(functools.partial(Cells, case, theta))
+
+    def measure(plan: Plan, level: float) -> Fit:
+        for size in sizes:
+            found = fit(case, theta, cells(size), plan, level)
+            if found.upper <= tolerance or found.p_value > SUSPICIOUS:
+                break
+        return found
+
+    return measure
 
 
 def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit:
@@ -75,9 +87,11 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     n = min(math.ceil(DRAWS * plan.samples), MOST)
     place = (theta, case.phi_o_deg, *case.one)
     key = stream(plan.seed, case.model.name, NAME, *place, n)
-    counts = cells.counts(key, n, plan.threads)
-    found = judged(counts, cells.probability, level)
-    found = found._replace(hint=_hint(counts, cells.probability))
+    counts, expected = cells.counts(key, n, plan.threads), cells.probability
+    if counts[-1] < UNSURE * n and not cells.rejects:  # so few are a question for `pdf`
+        counts[-1] = expected[-1] = 0.0
+    found = judged(counts, expected, level)
+    found = found._replace(hint=_hint(counts, expected))
     if found.p_value >= level:
         return found
     return found._replace(distance=max(0.0, found.distance - 2.0 * cells.error))
