@@ -169,13 +169,13 @@ def cosine_power(d: float, n: float) -> float:
     """c^n of a cosine c = 1 - d given by d, 0 where c <= 0 (also for n = 0: half a sphere).
 
     Lobes of large n live at d ~ 1/n, where 1 - d has lost the digits that n multiplies. The steps
-    are those of log2_1p and exp2 without what only arguments above 1 need.
+    are those of log2_1p and exp2 without what only arguments above 1 need; without the sign of x
+    plain Python divides by zero nowhere.
     """
-    x = 1.0 - d
+    x = abs(1.0 - d)
     k = exponent(x)
     m = double_of(word_of(x) - (k << 52))
-    near = k == 0
-    t = n * log2_of_parts(k, (-d if near else m - 1.0) / (2.0 - d if near else m + 1.0))
+    t = n * log2_of_parts(k, (-d if k == 0 else m - 1.0) / (m + 1.0))
     t = LOWEST if t < LOWEST else t
     j = nearest(t)
     y = scaled(expm1_small((t - number_of(j)) * LN2), j)

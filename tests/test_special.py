@@ -102,6 +102,7 @@ def test_ends_and_not_a_number() -> None:
     assert special.exp(0.0) == 1.0 and special.expm1(0.0) == special.log1p(0.0) == 0.0
     assert special.power(0.0, 3.0) == 0.0 and special.power(0.7, 0.0) == 1.0
     assert special.cosine_power(1.0, 0.0) == 0.0 and special.cosine_power(0.999, 0.0) == 1.0
+    assert special.cosine_power(1.5, 3.0) == special.cosine_power(2.0, 0.0) == 0.0
     for function in (special.exp, special.expm1, special.log, special.log1p):
         assert all(math.isnan(v) for v in np.ravel(both(function, np.array([math.nan, math.nan]))))
     assert math.isnan(special.power(math.nan, 2.0))
