@@ -24,6 +24,7 @@ from environment import describe
 
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.integration import build, compiler, integrands, kernel, native, parameters
+from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.sampling import points
 from montecarlo_brdf.sampling.keys import NONE, replicate_key
 
@@ -99,7 +100,7 @@ def layout_of(channels: int) -> tuple[parameters.Layout, list[float]]:
 def ours(point_set: str, channels: int = 1) -> Timed:
     """The real kernel."""
     layout, numbers = layout_of(channels)
-    recipe = build.Recipe(point_set, (integrands.albedo_cosine,), {"F": f}, layout)
+    recipe = Recipe(point_set, (integrands.albedo_cosine,), {"F": f}, layout)
     return call(build.kernel_of(recipe), numbers, channels)
 
 

@@ -22,6 +22,7 @@ from environment import describe
 
 from montecarlo_brdf import load, loading
 from montecarlo_brdf.integration import build, compiler, integrands, kernel, parameters
+from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.model import channels
 
 SAMPLES = 1 << 17
@@ -40,13 +41,13 @@ def calibration(wo: Any, wi: Any, p: Any) -> float:
     return (1.0 + p.a * wi[0] + 0.2 * wi[1] + 0.1 * wi[0] * wi[1]) / math.pi
 
 
-def recipe(f: Callable[..., float], sets: list[Any]) -> tuple[build.Recipe, list[float]]:
+def recipe(f: Callable[..., float], sets: list[Any]) -> tuple[Recipe, list[float]]:
     """The cosine-sampled albedo kernel of f."""
     layout, numbers = parameters.pack(sets, kernel.QUERY)
-    return build.Recipe("independent", (integrands.albedo_cosine,), {"F": f}, layout), numbers
+    return Recipe("independent", (integrands.albedo_cosine,), {"F": f}, layout), numbers
 
 
-def prepared(name: str, **values: Any) -> tuple[build.Recipe, list[float]]:
+def prepared(name: str, **values: Any) -> tuple[Recipe, list[float]]:
     """The same for a model by name; an exponent is not a whole number."""
     model = load(name)
     names = model.Params._fields  # type: ignore[attr-defined]
@@ -54,7 +55,7 @@ def prepared(name: str, **values: Any) -> tuple[build.Recipe, list[float]]:
     return recipe(model.f, [model.prepared(c) for c in channels(p)])
 
 
-def caller(made: build.Recipe, numbers: list[float]) -> Callable[[], float]:
+def caller(made: Recipe, numbers: list[float]) -> Callable[[], float]:
     """A function that runs the kernel once and returns the seconds."""
     entry = build.kernel_of(made)
     ints = (ctypes.c_int64 * 10)(12345, 0, 1, 0, SAMPLES)
@@ -69,7 +70,7 @@ def caller(made: build.Recipe, numbers: list[float]) -> Callable[[], float]:
     return once
 
 
-def mix(made: build.Recipe) -> dict[str, int]:
+def mix(made: Recipe) -> dict[str, int]:
     """Counts of instructions in the kernel's machine code."""
     text = compiler.assembly(made.assemble(build.specialiser(compiler.part)))
     return {
@@ -100,7 +101,7 @@ def main() -> None:
             json.dump(result, file, indent=1)
 
 
-def row(name: str, best: dict[str, float], made: build.Recipe) -> dict[str, Any]:
+def row(name: str, best: dict[str, float], made: Recipe) -> dict[str, Any]:
     """Print and return one model's figures."""
     ratio = best[name] / best["calibration"]
     found: dict[str, Any] = {"ns": best[name] / SAMPLES * 1e9, "ratio": ratio, **mix(made)}

@@ -12,10 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy import stats
 
-from montecarlo_brdf.integration import build, kernel, parameters
+from montecarlo_brdf.integration import kernel, parameters
 from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.evaluate import evaluate
 from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.integration.samplers import suited_to
 from montecarlo_brdf.integration.subject import Subject
 from montecarlo_brdf.integration.work import Ladder
@@ -41,7 +42,7 @@ def means(q: Question, points: str, count: int, seed: int = 0, each: int = EACH)
     count)."""
     layout, numbers = parameters.pack(q.subject.sets, kernel.QUERY)
     suited = tuple(suited_to(points, f) for f in q.integrands)
-    recipe = build.Recipe(points, suited, q.subject.functions, layout)
+    recipe = Recipe(points, suited, q.subject.functions, layout)
     entry = compiled(q.subject.identity[0], recipe)
     reals = (*(*q.fixed, 0.0)[: kernel.QUERY], *numbers)
     key = stream(seed, points, *q.subject.identity, *q.label, *q.fixed)

@@ -93,7 +93,8 @@ def furnace(model: object, *more: object) -> list[object]:
 KEYS = """
 import sys
 from montecarlo_brdf import load
-from montecarlo_brdf.integration import build, integrands, parameters
+from montecarlo_brdf.integration import integrands, parameters
+from montecarlo_brdf.integration.recipe import Recipe
 for path in sys.argv[1:]:
     sys.modules.pop("other", None)
     sys.path_importer_cache.clear()
@@ -101,7 +102,7 @@ for path in sys.argv[1:]:
     sys.path.pop(0)
     layout, _ = parameters.pack([model.parameters()], 4)
     functions = {"F": model.f}
-    print(build.Recipe("sobol", (integrands.albedo_cosine,), functions, layout).key())
+    print(Recipe("sobol", (integrands.albedo_cosine,), functions, layout).key())
 """
 
 

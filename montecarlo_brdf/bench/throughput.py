@@ -11,6 +11,7 @@ from montecarlo_brdf.bench.measure import quartiles
 from montecarlo_brdf.bench.workloads import integrand
 from montecarlo_brdf.integration import build, integrands, kernel, parameters, work
 from montecarlo_brdf.integration.estimators import directional_albedo
+from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.sampling.keys import NONE
 from montecarlo_brdf.vectors import from_degrees
@@ -35,7 +36,7 @@ def cosine_job(name: str, samples: int, points: str = "independent") -> Callable
     model = load(name)
     p = model.parameters()
     layout, numbers = parameters.pack([model.prepared(p)], kernel.QUERY)
-    recipe = build.Recipe(points, (integrands.albedo_cosine,), {"F": model.f}, layout)
+    recipe = Recipe(points, (integrands.albedo_cosine,), {"F": model.f}, layout)
     entry = build.kernel_of(recipe)
     reals = (*from_degrees(60.0), 0.0, *numbers)
     return lambda: work.Ladder(entry, reals, 1, 1, 1).states(samples, NONE)

@@ -4,6 +4,7 @@ For models without a sampler, and for densities with steps. Points spread over t
 vectors, with wo or with its mirror image, see a lobe of any width from 1e-3 on at the mirror
 direction or at wo itself. It cannot see: a sharp lobe elsewhere.
 """
+
 from __future__ import annotations
 
 import math
@@ -15,9 +16,14 @@ import numpy as np
 from montecarlo_brdf.checks import fitness
 from montecarlo_brdf.checks.case import pointwise
 from montecarlo_brdf.checks.claim import Measurement
-from montecarlo_brdf.integration import scattered
 from montecarlo_brdf.integration.evaluate import evaluate
 from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.slopes import (
+    albedo_slopes,
+    density_slopes,
+    density_uniform,
+    radiance_slopes,
+)
 from montecarlo_brdf.integration.subject import Subject
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec, mirrored
@@ -31,21 +37,21 @@ def albedo(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
     """A(wo)."""
     side = side_of(model, one, wo)
     bound = {"F": model.f}
-    return _measured(model, one, (*wo, side), bound, scattered.albedo_slopes, seed)
+    return _measured(model, one, (*wo, side), bound, albedo_slopes, seed)
 
 
 def radiance(model: Model, one: Any, wo: Vec, sky: Any, which: float, seed: int) -> Measurement:
     """Reflected radiance under sky(w, which)."""
     place = (*wo, side_of(model, one, wo) * (1.0 + which))
     bound = {"F": model.f, "SKY": sky}
-    return _measured(model, one, place, bound, scattered.radiance_slopes, seed)
+    return _measured(model, one, place, bound, radiance_slopes, seed)
 
 
 def mass(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
     """int pdf dwi; by uniform directions where those agree and are more precise."""
     place, bound = (*wo, 1.0), {"PDF": model.pdf}
-    slopes = _measured(model, one, place, bound, scattered.density_slopes, seed)
-    uniform = _measured(model, one, place, bound, scattered.density_uniform, seed)
+    slopes = _measured(model, one, place, bound, density_slopes, seed)
+    uniform = _measured(model, one, place, bound, density_uniform, seed)
     a, b = slopes.estimate, uniform.estimate
     agree = abs(a.mean - b.mean) <= AGREE * math.hypot(a.stderr, b.stderr)
     return uniform._replace(estimator="uniform") if agree and b.stderr < a.stderr else slopes

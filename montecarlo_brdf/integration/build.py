@@ -6,22 +6,16 @@ import functools
 import gc
 import sys
 import threading
-from collections.abc import Callable, Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 from montecarlo_brdf import bits, jit
-from montecarlo_brdf.integration import cache, compiler, kernel, linking, native, parameters
+from montecarlo_brdf.integration import cache, compiler, linking, native, parameters
 from montecarlo_brdf.integration.fingerprint import Fingerprint
-from montecarlo_brdf.integration.integrands import PLANE
-from montecarlo_brdf.integration.reach import takes_more
 from montecarlo_brdf.integration.specialise import Specialiser
-from montecarlo_brdf.sampling import points as point_sets
 
 Function = Callable[..., Any]
-
-#: What a kernel calls its integrands.
-NAMES = ("FIRST", "SECOND", "THIRD", "FOURTH", "FIFTH")
 
 
 class Buildable(Protocol):
@@ -40,76 +34,6 @@ class Buildable(Protocol):
         ...
 
 
-class Wrapped(NamedTuple):
-    """An integrand that another one evaluates, as INSIDE, at points of its own."""
-
-    outer: Function
-    inner: Function
-
-
-class Recipe(NamedTuple):
-    """All that a kernel of means is made of."""
-
-    points: str
-    integrands: tuple[Function | Wrapped, ...]
-    functions: Mapping[str, Function]  # what F, SAMPLE, PDF stand for in the integrands
-    layout: parameters.Layout
-
-    @property
-    def channels(self) -> int:
-        """Number of parameter sets."""
-        return len(self.layout.places)
-
-    def point_set(self) -> Function:
-        """The points; of Sobol's only the coordinates that the integrands use."""
-        if self.points == "sobol" and all(i in PLANE for i in self.integrands):
-            choosing = takes_more(self.functions.get("SAMPLE"), 1, 2)
-            return point_sets.sobol_plane if choosing else point_sets.sobol_pair
-        found: Function = getattr(point_sets, self.points)
-        return found
-
-    def _shape(self) -> Function:
-        return kernel.shaped if self.points in point_sets.SHAPES else kernel.shapeless
-
-    def key(self) -> str:
-        """Hash of everything the machine code depends on."""
-        content = fingerprint(self.layout)
-        content.add((self.point_set(), self._shape()))
-        for integrand in self.integrands:
-            if isinstance(integrand, Wrapped):
-                content.add(integrand.outer)
-                integrand = integrand.inner
-            content.add(integrand, self.functions)
-        content.add(kernel.moments)
-        content.add(len(self.integrands))
-        return content.hexdigest()
-
-    def parts(self) -> Hashable:
-        """Points, functions and layout."""
-        return self.points, self.integrands, frozenset(self.functions.items()), self.layout
-
-    def assemble(self, special: Specialiser) -> Function:
-        """The template `moments` with everything bound."""
-        integrands = [self._bound(special, i) for i in self.integrands]
-        bound = {
-            "POINTS": self.point_set(),
-            "SHAPE": self._shape(),
-            "STORE": _store(special, integrands),
-            "PARAMETERS": parameters.unpacker(self.layout),
-            "BUFFER": buffer(kernel.ROOM * self.channels * len(integrands)),
-            "ROW": buffer(kernel.ROOM),
-            "CHANNELS": self.channels,
-            "SLOTS": len(integrands),
-        }
-        return special.clone(kernel.moments, bound)
-
-    def _bound(self, special: Specialiser, integrand: Function | Wrapped) -> Any:
-        if isinstance(integrand, Wrapped):
-            inside = special.bind(integrand.inner, self.functions)
-            return special.bind(integrand.outer, {"INSIDE": inside})
-        return special.bind(integrand, self.functions)
-
-
 def fingerprint(layout: parameters.Layout) -> Fingerprint:
     """A hash begun with what every kernel depends on."""
     content = Fingerprint()
@@ -123,7 +47,8 @@ def fingerprint(layout: parameters.Layout) -> Fingerprint:
 def _compiler_source() -> tuple[bytes, ...]:
     """The files that say how code is generated, as opposed to what it computes."""
     sources = (bits, jit, compiler, linking, native, parameters, sys.modules[__name__])
-    return tuple(Path(str(m.__file__)).read_bytes() for m in sources)
+    recipe = Path(__file__).with_name("recipe.py")  # it imports this file
+    return tuple(p.read_bytes() for p in (*(Path(str(m.__file__)) for m in sources), recipe))
 
 
 _loaded: dict[str, native.NativeKernel] = {}
@@ -176,15 +101,6 @@ def _no_collection() -> Iterator[None]:
 def specialiser(compile_one: Callable[[Function], Any] = compiler.whole) -> Specialiser:
     """One for the process, so that kernels share the functions they have in common."""
     return Specialiser(compile_one, bits.compiled_twins())
-
-
-def _store(special: Specialiser, integrands: list[Any]) -> Any:
-    """A function that evaluates each integrand into its own slot."""
-    if len(integrands) > len(NAMES):
-        raise ValueError(f"{len(integrands)} integrands in one kernel; {len(NAMES)} are allowed")
-    spare = [integrands[0]] * (len(NAMES) - len(integrands))  # typed, never called
-    bound = dict(zip(NAMES, integrands + spare, strict=True))
-    return special.bind(kernel.store, {**bound, "SLOTS": len(integrands)})
 
 
 def buffer(size: int) -> Any:

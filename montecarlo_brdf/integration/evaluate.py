@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration import build, kernel, parameters, work
+from montecarlo_brdf.integration import kernel, parameters, work
 from montecarlo_brdf.integration.arguments import check_samples
 from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.integration.samplers import integrand, query, suited_to
 from montecarlo_brdf.integration.subject import Subject, subject_of
 from montecarlo_brdf.model import Model
@@ -50,7 +51,7 @@ def evaluate(
     for group in _groups(subject.sets, len(functions)):
         layout, numbers = parameters.pack(group, kernel.QUERY)
         suited = tuple(suited_to(plan.points, f) for f in functions)
-        recipe = build.Recipe(plan.points, suited, subject.functions, layout)
+        recipe = Recipe(plan.points, suited, subject.functions, layout)
         entry = compiled(subject.identity[0], recipe)
         width = len(group) * len(functions)
         reals = (*(*fixed, 0.0)[: kernel.QUERY], *numbers)

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf import student
 from montecarlo_brdf.integration import build, charted
 from montecarlo_brdf.integration.kernel import STATE
+from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.statistics import FLOOR
 
@@ -106,10 +107,10 @@ class Climb(NamedTuple):
     """All that an adaptive kernel is made of: the means, and how to probe the integrand if at
     all."""
 
-    means: build.Recipe
+    means: Recipe
     seen: Any
 
-    def _probing(self) -> build.Recipe:
+    def _probing(self) -> Recipe:
         return self.means._replace(points="counted", integrands=(self.seen,))
 
     def key(self) -> str:

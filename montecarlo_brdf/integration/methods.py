@@ -5,9 +5,10 @@ import functools
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration import build, charted, kernel, parameters
+from montecarlo_brdf.integration import charted, kernel, parameters
 from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.looks import Climb
+from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.integration.samplers import (
     charts_of,
     integrand,
@@ -33,7 +34,7 @@ class Setting(NamedTuple):
     """All that estimating a model with one parameter set needs, whatever the direction."""
 
     method: Method
-    means: build.Recipe
+    means: Recipe
     entry: Any  # the kernel of looks
     probed: bool
     numbers: tuple[float, ...]
@@ -77,7 +78,7 @@ def prepare(model: Model, p: Any, kind: Any, method: Method) -> Setting:
     """Kernel and numbers of a case. `kind` keeps equal tuples of different variants apart."""
     layout, numbers = parameters.pack([model.prepared(c) for c in channels(p)], kernel.QUERY)
     average = suited_to(method.points, integrand(integrand_name(model, "albedo", method.sampler)))
-    means = build.Recipe(method.points, (average,), functions_of(model), layout)
+    means = Recipe(method.points, (average,), functions_of(model), layout)
     seen = getattr(charted, f"seen_{method.sampler}", None)
     identity = (method.points, *identity_of(model, p), "albedo")
     return Setting(

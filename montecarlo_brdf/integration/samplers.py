@@ -5,7 +5,8 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-from montecarlo_brdf.integration import build, charted, integrands, probe
+from montecarlo_brdf.integration import charted, integrands, probe
+from montecarlo_brdf.integration.recipe import Wrapped
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.vectors import Vec
 
@@ -52,7 +53,7 @@ def suited_to(points: str, function: Any) -> Any:
     if points != "lattice" or sampler in charted.CHARTS:
         return function
     twice = quantity == "bihemispherical"
-    return build.Wrapped(charted.periodised_twice if twice else charted.periodised, function)
+    return Wrapped(charted.periodised_twice if twice else charted.periodised, function)
 
 
 def query(model: Model, p: Any, fixed: Vec) -> tuple[float, ...]:

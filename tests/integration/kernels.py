@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from montecarlo_brdf.integration import build, integrands, kernel, parameters, work
+from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling import points as sets
 from montecarlo_brdf.statistics import Moments
@@ -25,7 +26,7 @@ def job(model: Model, rows: Sequence[Any], names: Sequence[str], points: str, ke
     """What `evaluate` asks of `work.run`, with its key chosen here."""
     layout, numbers = parameters.pack([model.prepared(p) for p in rows], kernel.QUERY)
     kinds = tuple(getattr(integrands, n) for n in names)
-    entry = build.kernel_of(build.Recipe(points, kinds, functions(model), layout))
+    entry = build.kernel_of(Recipe(points, kinds, functions(model), layout))
     shape = sets.SHAPES[points](samples) if points in sets.SHAPES else sets.NONE
     width = len(rows) * len(names)
     return work.Job(entry, (*WO, 0.0, *numbers), width, key, replicates, samples, shape)

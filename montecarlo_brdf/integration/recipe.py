@@ -1,0 +1,96 @@
+"""Kernels of means: integrands at the points of a set, their moments per replicate."""
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.integration import kernel, parameters
+from montecarlo_brdf.integration.build import buffer, fingerprint
+from montecarlo_brdf.integration.integrands import PLANE
+from montecarlo_brdf.integration.reach import takes_more
+from montecarlo_brdf.integration.specialise import Specialiser
+from montecarlo_brdf.sampling import points as point_sets
+
+Function = Callable[..., Any]
+
+#: What a kernel calls its integrands.
+NAMES = ("FIRST", "SECOND", "THIRD", "FOURTH", "FIFTH")
+
+
+class Wrapped(NamedTuple):
+    """An integrand that another one evaluates, as INSIDE, at points of its own."""
+
+    outer: Function
+    inner: Function
+
+
+class Recipe(NamedTuple):
+    """All that a kernel of means is made of."""
+
+    points: str
+    integrands: tuple[Function | Wrapped, ...]
+    functions: Mapping[str, Function]  # what F, SAMPLE, PDF stand for in the integrands
+    layout: parameters.Layout
+
+    @property
+    def channels(self) -> int:
+        """Number of parameter sets."""
+        return len(self.layout.places)
+
+    def point_set(self) -> Function:
+        """The points; of Sobol's only the coordinates that the integrands use."""
+        if self.points == "sobol" and all(i in PLANE for i in self.integrands):
+            choosing = takes_more(self.functions.get("SAMPLE"), 1, 2)
+            return point_sets.sobol_plane if choosing else point_sets.sobol_pair
+        found: Function = getattr(point_sets, self.points)
+        return found
+
+    def _shape(self) -> Function:
+        return kernel.shaped if self.points in point_sets.SHAPES else kernel.shapeless
+
+    def key(self) -> str:
+        """Hash of everything the machine code depends on."""
+        content = fingerprint(self.layout)
+        content.add((self.point_set(), self._shape()))
+        for integrand in self.integrands:
+            if isinstance(integrand, Wrapped):
+                content.add(integrand.outer)
+                integrand = integrand.inner
+            content.add(integrand, self.functions)
+        content.add(kernel.moments)
+        content.add(len(self.integrands))
+        return content.hexdigest()
+
+    def parts(self) -> Hashable:
+        """Points, functions and layout."""
+        return self.points, self.integrands, frozenset(self.functions.items()), self.layout
+
+    def assemble(self, special: Specialiser) -> Function:
+        """The template `moments` with everything bound."""
+        integrands = [self._bound(special, i) for i in self.integrands]
+        bound = {
+            "POINTS": self.point_set(),
+            "SHAPE": self._shape(),
+            "STORE": _store(special, integrands),
+            "PARAMETERS": parameters.unpacker(self.layout),
+            "BUFFER": buffer(kernel.ROOM * self.channels * len(integrands)),
+            "ROW": buffer(kernel.ROOM),
+            "CHANNELS": self.channels,
+            "SLOTS": len(integrands),
+        }
+        return special.clone(kernel.moments, bound)
+
+    def _bound(self, special: Specialiser, integrand: Function | Wrapped) -> Any:
+        if isinstance(integrand, Wrapped):
+            inside = special.bind(integrand.inner, self.functions)
+            return special.bind(integrand.outer, {"INSIDE": inside})
+        return special.bind(integrand, self.functions)
+
+
+def _store(special: Specialiser, integrands: list[Any]) -> Any:
+    """A function that evaluates each integrand into its own slot."""
+    if len(integrands) > len(NAMES):
+        raise ValueError(f"{len(integrands)} integrands in one kernel; {len(NAMES)} are allowed")
+    spare = [integrands[0]] * (len(NAMES) - len(integrands))  # typed, never called
+    bound = dict(zip(NAMES, integrands + spare, strict=True))
+    return special.bind(kernel.store, {**bound, "SLOTS": len(integrands)})
