@@ -20,11 +20,12 @@ def fresnel(x: Array, eta: float, k: float = 0.0) -> Array:
     With g^2 = m^2 - 1 + x^2 the amplitudes (x-g)/(x+g) and (m^2 x-g)/(m^2 x+g) are rewritten so
     that m -> 1 costs no digits. Total internal reflection (eta < 1) comes out as exactly 1.
     """
-    m2 = eta * eta if k == 0.0 and eta >= 1.0 else complex(eta, k) ** 2
-    g = np.sqrt((m2 - 1.0) + x * x)
+    m = eta if k == 0.0 and eta >= 1.0 else complex(eta, k)
+    m2, above_one = m * m, (m - 1.0) * (m + 1.0)
+    g = np.sqrt(above_one + x * x)
     senkrecht = 1.0 / _norm(x + g) ** 2
     parallel = _norm(x * x * (m2 + 1.0) - 1.0) / _norm(m2 * x + g) ** 2
-    return 0.5 * abs(m2 - 1.0) ** 2 * (senkrecht + parallel)
+    return 0.5 * abs(above_one) ** 2 * (senkrecht + parallel)
 
 
 def _norm(z: Any) -> Array:

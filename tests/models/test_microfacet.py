@@ -80,6 +80,9 @@ def test_fresnel_limits() -> None:
         assert dielectric(x, 1.0) == conductor(x, 1.0, 0.0) == 0.0
         assert conductor(x, 1.5, 0.0) == pytest.approx(dielectric(x, 1.5), rel=1e-14)
     assert dielectric(1.0, 1.5) == pytest.approx(0.04, rel=1e-15)
+    faint = ((1.000001 - 1.0) / 2.000001) ** 2
+    assert dielectric(1.0, 1.000001) == pytest.approx(faint, rel=1e-14)
+    assert conductor(1.0, 1.000001, 0.0) == pytest.approx(faint, rel=1e-14)
     metal = (0.64 + 15.21) / (1.44 + 15.21)  # ((eta - 1)^2 + k^2)/((eta + 1)^2 + k^2)
     assert conductor(1.0, 0.2, 3.9) == pytest.approx(metal, rel=1e-14)
 

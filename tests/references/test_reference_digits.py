@@ -11,6 +11,7 @@ import pytest
 from reference_data import cosine
 
 from montecarlo_brdf import references
+from montecarlo_brdf.references._fresnel import fresnel
 from montecarlo_brdf.references._gamma import half_step
 from montecarlo_brdf.references._microfacet import blinn_phong
 from montecarlo_brdf.references._rules import gauss, tanh_sinh
@@ -137,6 +138,18 @@ def test_what_blinn_phong_hides(n: float, mu: float) -> None:
     edges = [j * mp.sqrt(2 / (m + 2)) for j in (0, 1, 4, 14, 300)]
     tail = mp.quad(lambda z: z * (1 + (nu + z) ** 2) ** (-(m + 3) / 2), [*edges, mp.inf])
     assert abs(blinn_phong(n).lam(np.asarray(mu)) - scale * tail / nu) < 1e-14
+
+
+@pytest.mark.parametrize("m", [1.000001, 1.5, 0.5, 1.000001 + 1e-7j, 0.2 + 3.9j])
+def test_fresnel_next_to_no_interface(m: complex) -> None:
+    """The amplitudes as published; m^2 - 1 rounded from m^2 was off by 4e-11 at m = 1 + 1e-6."""
+    index = mp.mpmathify(m)
+    for x in (0.003, 0.1, 0.6, 1.0):
+        c, g = mp.mpf(x), mp.sqrt(index**2 - 1 + mp.mpf(x) ** 2)
+        s, p = (c - g) / (c + g), (index**2 * c - g) / (index**2 * c + g)
+        exact = (abs(s) ** 2 + abs(p) ** 2) / 2
+        got = fresnel(np.array([x]), m.real, m.imag)[0]
+        assert abs(got / exact - 1) < 2e-14
 
 
 @pytest.mark.parametrize("n", [8, 30, 120])
