@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -48,6 +48,13 @@ class Exact(NamedTuple):
     points: int = 1  # how many were looked at
     note: str | None = None  # why nothing could be decided
     hint: str | None = None
+
+
+def worst_of(looks: Iterable[Exact]) -> Exact:
+    """The largest of some values, of equal ones the last, with the points of all."""
+    looks = list(looks)
+    found = max(reversed(looks), key=lambda one: one.value)
+    return found._replace(points=sum(one.points for one in looks))
 
 
 class Fit(NamedTuple):

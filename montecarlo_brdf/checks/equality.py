@@ -13,7 +13,7 @@ import numpy as np
 
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip
+from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip, worst_of
 from montecarlo_brdf.checks.hints import dependence_named, moved_named, shape_named
 from montecarlo_brdf.integration import scattered
 from montecarlo_brdf.loading import load
@@ -50,8 +50,6 @@ def claims(case: Case) -> Iterator[Claim]:
 
 
 def _worst(case: Case, other: Model) -> Exact:
-    found = Exact(0.0, points=0)
-
     def apart(wo: Any, wi: Any, sets: scattered.Rows) -> Any:
         same = scattered.rows(other, sets.columns(other.Params), shared(other, case.one), len(wo))
         ours = scattered.pair_values(case.model, wo, wi, sets)
@@ -61,11 +59,10 @@ def _worst(case: Case, other: Model) -> Exact:
     looks: list[tuple[Any, ...]] = [(p,) for p in (*interiors.sets(case), *interiors.ends(case))]
     if case.free:
         looks.append(directions.worst_pair(case, case.random(NAME, "all"), apart, few))
-    for k, (p, *more) in enumerate(looks):
-        one = difference(case, p, other, shared(other, p), case.random(NAME, k), *more)
-        points = found.points + one.points
-        found = (one if one.value >= found.value else found)._replace(points=points)
-    return found
+    return worst_of(
+        difference(case, p, other, shared(other, p), case.random(NAME, k), *more)
+        for k, (p, *more) in enumerate(looks)
+    )
 
 
 def shared(other: Model, p: Any) -> Any:

@@ -13,7 +13,7 @@ import numpy as np
 
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip
+from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip, worst_of
 
 NAME = "isotropy"
 QUESTION = "does turning both directions change nothing?"
@@ -40,29 +40,33 @@ def claims(case: Case) -> Iterator[Claim]:
 
 
 def _worst(case: Case) -> Exact:
-    found = Exact(0.0, points=0)
-    for k, p in enumerate(interiors.sets(case, 2)):
-        rng = case.random(NAME, k)
-        kinds = [directions.random_pairs(rng), directions.lobe_pairs(case, p, rng)]
-        wo, wi = (np.concatenate(side) for side in zip(*kinds, strict=True))
-        phi = 2.0 * np.pi * rng.random(len(wo))
-        f = pointwise(case.model, p)
-        before, after = f.f(wo, wi), f.f(_turned(wo, phi), _turned(wi, phi))
-        usable = np.isfinite(before) & np.isfinite(after)
-        high = np.where(usable, np.maximum(np.abs(before), np.abs(after)), 0.0)
-        floor = max(NEGLIGIBLE * float(high.max(initial=0.0)), 1e-300)
-        change = np.where(usable, np.abs(before - after), 0.0) / np.maximum(high, floor)
-        if change.max(initial=0.0) > TOLERANCE:
-            apart = np.abs(before - after)
-            change = directions.unexplained(change, apart, TOLERANCE, f.f, wo, wi, rng)
-        j = int(np.argmax(change))
-        points = found.points + len(wo)
-        if change[j] >= found.value:
-            where = {**interiors.changed(case, p), **directions.place(wo[j], wi[j])}
-            hint = f"f depends on the azimuth itself (turned by {np.degrees(phi[j]):.0f} degrees)"
-            found = Exact(float(change[j]), 0.0, where, points, hint=hint)
-        found = found._replace(points=points)
-    return found
+    sets = enumerate(interiors.sets(case, 2))
+    return worst_of(_worst_turned(case, p, case.random(NAME, k)) for k, p in sets)
+
+
+def _worst_turned(case: Case, p: Any, rng: Any) -> Exact:
+    """The pair whose f changes most when it is turned by an azimuth of its own."""
+    kinds = [directions.random_pairs(rng), directions.lobe_pairs(case, p, rng)]
+    wo, wi = (np.concatenate(side) for side in zip(*kinds, strict=True))
+    phi = 2.0 * np.pi * rng.random(len(wo))
+    f = pointwise(case.model, p).f
+    before, after = f(wo, wi), f(_turned(wo, phi), _turned(wi, phi))
+    change = _relative(before, after)
+    if change.max(initial=0.0) > TOLERANCE:
+        apart = np.abs(before - after)
+        change = directions.unexplained(change, apart, TOLERANCE, f, wo, wi, rng)
+    k = int(np.argmax(change))
+    where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+    hint = f"f depends on the azimuth itself (turned by {np.degrees(phi[k]):.0f} degrees)"
+    return Exact(float(change[k]), 0.0, where, len(wo), hint=hint)
+
+
+def _relative(before: Any, after: Any) -> Any:
+    """|f - f turned|/f; 0 where one of them is not finite, which is positivity's business."""
+    usable = np.isfinite(before) & np.isfinite(after)
+    high = np.where(usable, np.maximum(np.abs(before), np.abs(after)), 0.0)
+    floor = max(NEGLIGIBLE * float(high.max(initial=0.0)), 1e-300)
+    return np.where(usable, np.abs(before - after), 0.0) / np.maximum(high, floor)
 
 
 def _turned(w: Any, phi: Any) -> Any:

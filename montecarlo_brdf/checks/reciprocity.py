@@ -15,7 +15,7 @@ import numpy as np
 
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
+from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, worst_of
 from montecarlo_brdf.integration import scattered
 
 NAME = "reciprocity"
@@ -42,13 +42,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 def worst(case: Case) -> Exact:
     """The worst pair over all parameter sets."""
-    found = Exact(0.0, points=0)
-    for k, p in enumerate(interiors.sets(case)):
-        one = _worst_of(case, p, case.random(NAME, k))
-        points = found.points + one.points
-        found = (one if one.value > found.value or found.points == 0 else found)._replace(
-            points=points
-        )
+    looks = [_worst_of(case, p, case.random(NAME, k)) for k, p in enumerate(interiors.sets(case))]
 
     def asymmetry(wo: Any, wi: Any, sets: scattered.Rows) -> Any:
         there = scattered.pair_values(case.model, wo, wi, sets)
@@ -57,9 +51,8 @@ def worst(case: Case) -> Exact:
     if case.free:
         p, pair = directions.worst_pair(case, case.random(NAME, "everywhere"), asymmetry)
         one = _worst_of(case, p, case.random(NAME, "there"), pair)
-        points = found.points + one.points + directions.SCATTERED
-        found = (one if one.value > found.value else found)._replace(points=points)
-    return found
+        looks.append(one._replace(points=one.points + directions.SCATTERED))
+    return worst_of(reversed(looks))  # of equal ones the first
 
 
 def _relative(there: Any, back: Any) -> Any:
