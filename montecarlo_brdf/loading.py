@@ -14,7 +14,8 @@ from typing import Any
 
 from montecarlo_brdf import mixture
 from montecarlo_brdf.errors import ModelError, UserError, unknown
-from montecarlo_brdf.model import Model, build, members
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.model_file import build, members
 
 FOLDER = Path(__file__).parent / "models"
 

@@ -17,7 +17,7 @@ FLOW = (
     ("errors",),
     ("bits", "jit", "special", "student", "vectors"),
     ("sampling", "statistics"),
-    ("loading", "mixture", "model", "models"),
+    ("loading", "mixture", "model", "model_file", "models"),
     ("integration",),
     ("bench", "stability"),
     ("checks",),

@@ -11,7 +11,8 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from montecarlo_brdf import loading
-from montecarlo_brdf.model import Model, build
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.model_file import build
 from montecarlo_brdf.models._half_lobe import half_power_pdf, sample_half_power
 from montecarlo_brdf.models._microfacet import half_power, half_sums
 from montecarlo_brdf.scene.scene import Scene

@@ -9,7 +9,7 @@ import pytest
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.model import build
+from montecarlo_brdf.model_file import build
 from montecarlo_brdf.stability import arithmetic, designed, ladder
 from montecarlo_brdf.stability.ladder import Rung, in_precision
 

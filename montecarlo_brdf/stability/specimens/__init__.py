@@ -10,7 +10,8 @@ from pathlib import Path
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.model import Model, build
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.model_file import build
 
 
 def names() -> list[str]:
