@@ -114,6 +114,11 @@ def test_negative_sky_below_the_horizon(cli: Callable[..., Any], tmp_path: Path)
     assert not png.exists()
 
 
+def test_sky_opposite_to_its_axis() -> None:
+    picture = render(read_scene(EXAMPLES / "phong.toml"), size=8, samples=16)
+    assert np.all(picture.values[0, 0] == 0.0)  # behind the sphere seen from the axis it is black
+
+
 def test_threads_change_nothing() -> None:
     scene = read_scene(EXAMPLES / "blinn_phong.toml")
     one, two = (render(scene, size=64, samples=16, threads=t) for t in (1, 2))
