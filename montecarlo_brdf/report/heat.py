@@ -17,6 +17,7 @@ def draw(report: dict[str, Any], figure: Any) -> None:
         _one(figure, ax, title, points)
     for ax in axes[len(maps) :]:
         ax.set_axis_off()
+    figure.suptitle(f"Errors above 1 and NaN are drawn as 1, no error as {FLOOR:g}.", fontsize=9)
     if not maps:
         axes[0].set_title(
             "no parameter of this model sharpens its lobe: nothing to map", fontsize=9

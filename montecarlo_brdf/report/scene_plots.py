@@ -6,13 +6,15 @@ from typing import Any
 
 CHANNELS = ("#D55E00", "#009E73", "#0072B2", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 MOST_SERIES = len(CHANNELS)
+KEY = "L_o +- 3 stderr,\nline: truth"
+FLOOR = 1e-17  # an exact value has no place on a log axis
 
 
 def radiance_figure(report: dict[str, Any]) -> Any:
     """L_o above, its error on a log scale below."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    figure = Figure(figsize=(8.0, 6.0), layout="constrained")
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
     shown = list(series(report["results"][0]["findings"]).items())
     single = len(shown) == 1
@@ -22,15 +24,22 @@ def radiance_figure(report: dict[str, Any]) -> Any:
     top.set_title(
         f"{report['results'][0]['model']}{more}, verdict {report['verdict']}", fontsize=10
     )
-    top.set_ylabel("reflected radiance L_o (line: truth)")
-    top.set_ylim(bottom=0.0)
+    top.set_ylabel("L_o in the unit of the light's radiance")
+    top.set_ylim(0.0, _headroom([f["value"] for _, rows in shown[:MOST_SERIES] for f in rows]))
     bottom.set_yscale("log")
     bottom.set_ylabel("|L_o - truth|")
     bottom.set_xlabel("angle of the viewer theta_o (degrees)")
+    bottom.set_title(f"points: error (0 is drawn at {FLOOR:g}), lines: stderr", fontsize=9)
     for axes in (top, bottom):
         axes.grid(alpha=0.25)
-        axes.legend(fontsize=8, loc="best")
+    # beside the panel: inside it a legend hides points, and below it needs none
+    top.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0), title=KEY, title_fontsize=8)
     return figure
+
+
+def _headroom(values: list[float]) -> float:
+    """The end of an axis from 0: left to itself it puts equal values on its very edge."""
+    return 1.08 * max([0.0, *values]) or 1.0
 
 
 def series(findings: list[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
@@ -55,16 +64,10 @@ def _draw(top: Any, bottom: Any, rows: list[dict[str, Any]], label: str, colour:
         markersize=4,
         capsize=2,
         color=colour,
-        label=f"{label} (+- 3 stderr)",
+        label=label,
     )
     top.plot(theta, [f["expected"] for f in rows], color=colour, linewidth=1.0)
-    floor = 1e-17  # an exact value has no place on a log axis
-    errors = [max(abs(f["value"] - f["expected"]), floor) for f in rows]
-    bottom.plot(theta, errors, "o", markersize=4, color=colour, label=f"{label}: error")
-    bottom.plot(
-        theta,
-        [max(f.get("stderr") or 0.0, floor) for f in rows],
-        color=colour,
-        linewidth=1.0,
-        label="stderr",
-    )
+    errors = [max(abs(f["value"] - f["expected"]), FLOOR) for f in rows]
+    bottom.plot(theta, errors, "o", markersize=4, color=colour)
+    bars = [max(f.get("stderr") or 0.0, FLOOR) for f in rows]
+    bottom.plot(theta, bars, color=colour, linewidth=1.0)

@@ -11,6 +11,7 @@ from scenes import EXAMPLES, estimates, written
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.references import _irradiance
+from montecarlo_brdf.report.scene_plots import _headroom, radiance_figure
 from montecarlo_brdf.scene.radiance import value_of
 from montecarlo_brdf.scene.read import read_scene
 from montecarlo_brdf.vectors import from_degrees, half_vector, mirrored
@@ -152,3 +153,12 @@ def test_spectrum_and_band(cli: Callable[..., Any], tmp_path: Path) -> None:
         upper, lower = upper + rho * light, lower + light
     assert band["value"] == pytest.approx(upper / lower, rel=1e-8)
     assert (outcome.code, band["verdict"]) == (0, "pass")
+
+
+def test_the_picture_hides_no_point() -> None:
+    where = {"theta_o_deg": 30.0}
+    row = {"quantity": "L_o", "where": where, "value": 0.5, "expected": 0.5, "stderr": 1e-6}
+    result = {"model": "lambert", "findings": [row]}
+    top, bottom = radiance_figure({"verdict": "pass", "results": [result]}).axes
+    assert top.get_ylim()[1] > 0.5 and bottom.get_legend() is None
+    assert _headroom([0.0]) > 0.0  # a black surface has an axis too
