@@ -45,6 +45,12 @@ def test_no_confusion_without_deviation() -> None:
     assert hints.moved_named(lambda a, b: density(a, b) ** 2, WO, WI) is None
 
 
+def test_whose_fault_a_weight_is() -> None:
+    claim: Any = None  # not looked at
+    assert "pdf of 0" in str(hints.hint(claim, np.inf, only_own=True))
+    assert str(hints.hint(claim, np.inf)).startswith("f is not finite")
+
+
 def test_dependence() -> None:
     def half(a: Any, b: Any) -> Any:
         h = a + b

@@ -20,15 +20,23 @@ FACTORS = {
     4.0 / math.pi: "pi stands where 4 belongs in the denominator",
     2.0 * math.pi: "a factor 2 pi too much: the pdf of uniform hemisphere sampling",
 }
+NOT_FINITE = "f is not finite for some direction: look for 1/0 or the root of a negative number"
+NOT_FINITE_WEIGHT = (
+    "f cos / pdf is not finite for some draw, f by itself is for all other samplers: "
+    "look for a pdf of 0 where sample draws"
+)
 CLOSE = 2e-3
 FEWEST = 20  # pairs that a dependence must show in
 MIRRORED = np.array([-1.0, -1.0, 1.0])
 
 
-def hint(claim: MeanClaim, value: float) -> str | None:
-    """A sentence that names the likely cause of a refuted claim, if the number tells."""
+def hint(claim: MeanClaim, value: float, only_own: bool = False) -> str | None:
+    """A sentence that names the likely cause of a refuted claim, if the number tells.
+
+    only_own: no other sampler met a value that is not finite.
+    """
     if not math.isfinite(value):
-        return "f is not finite for some direction: look for 1/0 or the root of a negative number"
+        return NOT_FINITE_WEIGHT if only_own else NOT_FINITE
     units, close = dict(claim.unit), CLOSE
     if claim.bound == "at most":  # what should reflect 1; a search for the worst is coarse
         units, close = {"1": 1.0, **units}, 5.0 * CLOSE

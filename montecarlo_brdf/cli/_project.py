@@ -36,8 +36,8 @@ class Section(Table):
     """A table of the file."""
 
     def title(self) -> str:
-        """The file's own name for what stands at its top."""
-        if self.path in ((), INSIDE):
+        """The file's own name for what stands at its top; a pyproject.toml is not all ours."""
+        if not self.path:
             return self.file.name
         if isinstance(self.path[-1], int):
             return super().title()

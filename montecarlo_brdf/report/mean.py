@@ -7,6 +7,7 @@ more samples in more replicates, refutes it again.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from montecarlo_brdf.checks.claim import MeanClaim, Measurement
@@ -91,15 +92,18 @@ def _finding(
         reference={k: reference[k] for k in ("kind", "source", "error")} if expected else None,
         estimators=[_row(o) for o in opinions],
         note=known if verdict == "known" else _note(verdict, opinions) or e.method or None,
-        hint=_hint(claim, e.mean) if verdict in ("fail", "known") else None,
+        hint=_hint(claim, e.mean, opinions) if verdict in ("fail", "known") else None,
         reproduce=claim.reproduce or None,
     )
 
 
-def _hint(claim: MeanClaim, value: float) -> str | None:
+def _hint(claim: MeanClaim, value: float, opinions: list[Opinion]) -> str | None:
     from montecarlo_brdf.checks.hints import hint  # imports numpy, which a pass does without
 
-    return hint(claim, value)
+    found = [(o.measurement.estimator, o.measurement.estimate.mean) for o in opinions]
+    # where only the model's own draws spoil the mean it is rather the pdf that they are divided by
+    others = [v for name, v in found if name != "own"]
+    return hint(claim, value, only_own=bool(others) and all(map(math.isfinite, others)))
 
 
 def _row(opinion: Opinion) -> dict[str, object]:

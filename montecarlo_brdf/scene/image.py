@@ -42,6 +42,8 @@ def read_image(path: Path) -> Texels:
     except (UserError, MemoryError) as error:
         raise UserError(str(error) or f"image {path} is larger than memory allows") from error
     except Exception as error:
+        if type(error).__name__ == "DecompressionBombError":  # Pillow's, which need not be there
+            raise UserError(f"image {path} is larger than memory allows") from error
         reason = " ".join(str(error).split()) or type(error).__name__
         raise UserError(f"image {path} is damaged or no {kind} file: {reason}") from error
     return Texels(_checked(path, values))

@@ -166,7 +166,8 @@ def _lights(scene: Scene, skip: bool, items: list[Item]) -> list[tuple[Vec, tupl
         if count:
             items.append(Item(f"{count} lights", False, reason))
     if found:
-        items.append(Item(f"{len(found)} lights", True, "exact sum, no samples"))
+        lights = "1 light" if len(found) == 1 else f"{len(found)} lights"
+        items.append(Item(lights, True, "exact sum, no samples"))
     return found
 
 

@@ -48,12 +48,15 @@ class Task:
     begun: bool = False
     done: bool = False
     slow: str = ""  # why the model could not even be evaluated once
+    waiting: bool = False  # for the model to return from its first evaluations
 
     def result(self, why: str) -> Result:
         """The findings; if it is not done one more is inconclusive, never forgotten."""
         case, findings = self.case, list(self.findings)
         if not self.done:
             late = self.slow or f"not {'finished' if self.begun else 'begun'}: {why}"
+            if self.waiting:
+                late += " before the model returned from its first few evaluations"
             findings.append(Finding(self.check, {}, "inconclusive", note=late))
         shown = shown_parameters(case.model, case.p)
         return Result(case.model.name, shown, self.check, findings, source=source(case.model))
@@ -118,11 +121,21 @@ def perform(
         if deadline.over():
             return
         if task.case is not case:
-            case, slow = task.case, too_slow(task.case)
+            case, slow = task.case, _first_look([t for t in tasks if t.case is task.case])
         if slow:
             task.slow = slow
         else:
             fill(task, plan, deadline, shared_progress(progress, k, len(tasks)))
+
+
+def _first_look(tasks: Sequence[Task]) -> str:
+    """Why the model of some tasks cannot be sampled; if this is left they can tell."""
+    for task in tasks:
+        task.waiting = True
+    slow = too_slow(tasks[0].case)
+    for task in tasks:
+        task.waiting = False
+    return slow
 
 
 def too_slow(case: Case) -> str:

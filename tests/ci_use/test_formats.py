@@ -97,6 +97,12 @@ def test_junit_follows_the_policy_for_inconclusive(policy: str, tag: str) -> Non
     assert [c.tag for t in tests for c in t if c.get("type") == "inconclusive"] == [tag]
 
 
+def test_junit_says_why_nothing_was_evaluated() -> None:
+    late = Finding("furnace", {}, "inconclusive", note="not begun: --max-time was over")
+    root = junit(Report("run", {}, [Result("ggx", {}, "furnace", [late])]))
+    assert next(root.iter("error")).get("message") == late.note
+
+
 def decoded(line: str) -> tuple[str, dict[str, str], str]:
     """A workflow command as the runner reads it."""
     found = re.fullmatch(r"::(\w+) (.*?)::(.*)", line)

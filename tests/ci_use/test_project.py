@@ -78,6 +78,8 @@ def test_pyproject(project: Callable[..., Path], cli: Callable[..., Outcome]) ->
     project(text + "[[tool.brdf-check.models]]\nmodel = 'lambert'\nalbedo = 1\n", "pyproject.toml")
     done = cli("run")
     assert done.code == 2 and "pyproject.toml, line 7" in done.err and "params" in done.err
+    project(text.replace("checks", "cheks"), "pyproject.toml")
+    assert "line 4: no key of [tool.brdf-check] 'cheks'" in cli("run").err
 
 
 @pytest.mark.parametrize(

@@ -85,6 +85,15 @@ def test_max_time_holds(
     assert len(results) >= 10 and any("--max-time was over" in note for note in notes)
 
 
+def test_the_report_tells_that_the_model_did_not_return(
+    cli: Callable[..., Outcome], user_file: Any
+) -> None:
+    done = cli("run", "--model", user_file(NEVER), "--max-time", "0.5", "--format", "json")
+    notes = {f["note"] for r in json.loads(done.out)["results"] for f in r["findings"]}
+    assert done.code == 3 and len(notes) == 1
+    assert "--max-time was over before the model returned" in notes.pop()
+
+
 def test_without_a_limit_a_model_gets_some_seconds(
     cli: Callable[..., Outcome], user_file: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

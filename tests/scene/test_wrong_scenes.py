@@ -1,5 +1,7 @@
 """Everything wrong in a scene is one sentence with its place, exit code 2, and leaves no file."""
 
+import struct
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -90,6 +92,13 @@ def _write(folder: Path, kind: str) -> str:
             shape = {"descr": "<f4", "fortran_order": False, "shape": (100_000, 200_000, 3)}
             np.lib.format.write_array_header_1_0(file, shape)
             file.truncate(file.tell() + 4 * 100_000 * 200_000 * 3)  # a hole: no bytes on the disk
+    elif kind == "large.png":
+        Image.new("RGB", (64, 32), (9, 200, 30)).save(folder / "whole.png")
+        data = (folder / "whole.png").read_bytes()
+        header = b"IHDR" + struct.pack(">II", 900_000, 900_000) + data[24:29]
+        checksum = struct.pack(">I", zlib.crc32(header))
+        (folder / "bad.png").write_bytes(data[:12] + header + checksum + data[33:])
+        return "bad.png"
     elif kind == "large.hdr":
         (folder / "bad.hdr").write_bytes(b"#?RADIANCE\n\n-Y 900000 +X 900000\n")
         return "bad.hdr"
@@ -108,6 +117,7 @@ def _write(folder: Path, kind: str) -> str:
         ("truncated.png", "damaged"),
         ("truncated.hdr", "truncated"),
         ("large.hdr", "too large"),
+        ("large.png", "larger than memory allows"),
         ("large.npy", "too large"),
         ("gif", "must be a .png, .hdr, .exr or .npy file"),
     ],

@@ -80,7 +80,9 @@ def _case(
     lines = [statement(finding), *explanation(finding), *origin(result)]
     outcome = outcomes.get(finding.verdict)
     if outcome:
-        message = finding.note or "skipped" if outcome == "skipped" else statement(finding)
+        # readers show the message alone: of what was never evaluated only the note tells anything
+        told_by_note = outcome == "skipped" or finding.samples is None
+        message = finding.note or finding.verdict if told_by_note else statement(finding)
         told = ElementTree.SubElement(test, outcome, type=finding.verdict, message=_legal(message))
         told.text = _legal("\n".join(lines))
     else:
