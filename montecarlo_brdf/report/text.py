@@ -34,7 +34,7 @@ def show(report: Report, verbose: bool = False) -> None:
             console.print(Text(title(group[0]).rpartition("  ")[0], style="bold"))
             console.print(check_table(group))
             for result in group:
-                _print_attention(console, result, verbose)
+                _print_attention(console, result, verbose, f"{result.check}: ")
     else:
         for result in report.results:
             console.print(Text(title(result), style="bold"))
@@ -116,8 +116,9 @@ def _cells(f: Finding) -> list[Any]:
     ]
 
 
-def _print_attention(console: Console, result: Result, verbose: bool) -> None:
-    """Hints, reasons, reproduction commands; every distinct sentence once."""
+def _print_attention(console: Console, result: Result, verbose: bool, about: str = "") -> None:
+    """Hints, reasons, reproduction commands; every distinct sentence once. `about` says whose they
+    are where several checks share a table."""
     lines: dict[str, None] = {}
     for f in result.findings:
         if verbose:
@@ -127,9 +128,9 @@ def _print_attention(console: Console, result: Result, verbose: bool) -> None:
                 lines[f"  {at} {value} {row['verdict']}"] = None
         for kind, sentence in (("note", f.note), ("hint", f.hint), ("repro", f.reproduce)):
             if sentence:
-                lines[f"  {kind:5} {sentence}"] = None
+                lines[f"  {kind:5} {'' if kind == 'repro' else about}{sentence}"] = None
     for name, reason, where in _not_used(result):
-        lines[f"  {name} sampling not used at {where}: {reason}"] = None
+        lines[f"  {about}{name} sampling not used at {where}: {reason}"] = None
     for line in lines:
         console.print(Text(line), soft_wrap=True)
 
