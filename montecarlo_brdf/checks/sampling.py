@@ -102,7 +102,7 @@ def _hint(counts: Any, expected: Any) -> str:
     cells = expected[0] * float(counts.sum())
     lost, due = counts[-1] / counts.sum(), expected[-1]
     if abs(lost - due) > 5.0 * math.sqrt(max(due, 1e-4) / counts.sum()) + 1e-3:
-        return f"{lost:.3g} of the draws are below the horizon, {due:.3g} by pdf"
+        return f"{lost:.3g} of the draws are rejected; pdf lacks {due:.3g} of its mass for them"
     table = counts[:-1].reshape(COLUMNS, ROWS) / cells
     around, outward = table.mean(axis=1), table.mean(axis=0)
     if np.ptp(around) > np.ptp(outward):
