@@ -162,7 +162,7 @@ def judged(code: int, arguments: list[str], folder: Path) -> tuple[str, str | No
     problem = None
     if code not in fuzzing.ANSWERS:
         problem = f"exit {code}: {err[-3000:]}"
-    elif "Traceback" in err or "Warning:" in err.replace("\nWarning: the weights", ""):
+    elif "Traceback" in err or "Warning:" in err.replace("Warning: the weights", ""):
         problem = f"exit {code} with {err[-3000:]}"
     elif code in (2, 4, 5) and not last.startswith("Error: ") and "Usage: " not in out + err:
         problem = f"exit {code} without a sentence: {last}"

@@ -90,11 +90,9 @@ def command(**options: Any) -> int:
         plot(report.to_dict(), options["plot"])
     if options["explain"] and options["form"] == "text":
         _explain(report.settings["plan"])
-    for finding in report.results[0].findings:
-        if finding.quantity.startswith("sum of weights") and finding.verdict == "fail":
-            click.echo(
-                f"Warning: the weights of the lobes add up to {finding.value:g} > 1", err=True
-            )
+    sums = [f for f in report.results[0].findings if f.quantity.startswith("sum of weights")]
+    for total in dict.fromkeys(f"{f.value:g}" for f in sums if f.verdict == "fail"):
+        click.echo(f"Warning: the weights of the lobes add up to {total} > 1", err=True)
     return _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
     )
