@@ -1,9 +1,12 @@
 """The inner loop: mean and spread of an integrand over a point set, for K parameter sets at once.
 
-`moments` is a template. Its capitalised names are bound by `integration.build` to a point set,
+`moments` is a template. Its capitalised names are bound by `integration.recipe` to a point set,
 integrands and an unpacker of parameters; the result is compiled per model. Samples are taken in
 blocks of fixed size that are merged in fixed order, so that results do not depend on how the work
-is cut into calls or on the number of threads.
+is cut into calls or on the number of threads. Points of a block are made before integrands are
+evaluated: in one loop their dependent operations add up to a chain that a processor with few vector
+registers waits for (a third of the time of GGX, half of Beckmann's). Coordinates that no integrand
+reads are never made.
 """
 from __future__ import annotations
 
