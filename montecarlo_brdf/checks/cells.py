@@ -78,8 +78,9 @@ class Cells:
     def rejects(self) -> bool:
         """Whether draws are rejected at all, as far as the two grids agree on it."""
         rejected = 1.0 - self.tables[2]
-        unsure = abs(float(np.sum(self.jittered)) - self.tables[2]) if rejected < UNSURE else 0.0
-        return rejected > 3.0 * unsure
+        if not 0.0 < rejected < UNSURE:
+            return rejected > 0.0
+        return rejected > 3.0 * abs(float(np.sum(self.jittered)) - self.tables[2])
 
 
 def edges(cumulated: Any, parts: int) -> Any:

@@ -44,18 +44,19 @@ def claims(case: Case) -> Iterator[Claim]:
             "distance of draws from pdf",
             case.where(theta_o_deg=theta),
             case.tolerated(TOLERANCE),
-            refined(case, theta, case.tolerated(TOLERANCE), FINE, FINEST),
+            refined(case, theta, tables(case, theta), case.tolerated(TOLERANCE), FINE, FINEST),
             property=PROPERTY,
         )
     for other, theta in interiors.elsewhere(case):
-        if 0.0 < Cells(other, theta, COARSE).tables[2] < HEAVIEST:  # else see `pdf`
-            yield _elsewhere(other, theta)
+        cells = tables(other, theta)
+        if 0.0 < cells(COARSE).tables[2] < HEAVIEST:  # else see `pdf`
+            yield _elsewhere(other, theta, cells)
 
 
-def _elsewhere(case: Case, theta: float) -> FitClaim:
+def _elsewhere(case: Case, theta: float, cells: Any) -> FitClaim:
     """The same with fewer draws and a wider tolerance, at other azimuths and parameters."""
     tolerance = 2.0 * case.tolerated(TOLERANCE)
-    measure = refined(case, theta, tolerance, COARSE, FINE, FINEST)
+    measure = refined(case, theta, cells, tolerance, COARSE, FINE, FINEST)
     return FitClaim(
         "distance of draws from pdf",
         {**case.where(theta_o_deg=theta), **interiors.changed(case, case.one)},
@@ -65,9 +66,15 @@ def _elsewhere(case: Case, theta: float) -> FitClaim:
     )
 
 
-def refined(case: Case, theta: float, tolerance: float, *sizes: tuple[int, int]) -> Any:
+def tables(case: Case, theta: float) -> Any:
+    """Cells by the size of their grid, each made once."""
+    return functools.cache(functools.partial(Cells, case, theta))
+
+
+def refined(
+    case: Case, theta: float, cells: Any, tolerance: float, *sizes: tuple[int, int]
+) -> Any:
     """A measurement on finer grids for as long as draws look wrong on coarser ones."""
-    cells = functools.cache(functools.partial(Cells, case, theta))
 
     def measure(plan: Plan, level: float) -> Fit:
         for size in sizes:
