@@ -7,6 +7,7 @@ f cos/pdf unbounded at the horizon is recognised by the exponent of f there.
 """
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.integration import probe
@@ -16,8 +17,11 @@ from montecarlo_brdf.vectors import Vec
 
 #: Effective samples below which an error bar is not trusted.
 FEWEST = 1000.0
-#: Largest share of the total that a single value may have, seen or expected.
+#: Largest share that a single value may have, seen or expected, of the total and of the sum of
+#: squared deviations: the skewness of a mean is then 0.14 at most, and t's tails are nearly right.
 LARGEST_SHARE = 0.02
+#: Deviations below this, relative to the mean, are not looked at: rounding is of their order.
+SMALLEST = 1e-6
 #: cos^c/pdf: f cos / pdf at the mirror direction is f times this
 SCALE = {"uniform": 6.283185307179586, "cosine": 3.141592653589793}
 #: c in pdf ~ mu^c near the horizon
@@ -63,11 +67,12 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
     if expected > LARGEST_SHARE * e.samples * e.mean:
         need = expected / (LARGEST_SHARE * e.mean)
         return f"a lobe that {sampler} sampling hardly hits: needs about {need:.0e} samples"
-    return _few(sampler, e, max(e.second_moment, second.mean if second else 0.0))
+    return _few(sampler, e, max(e.second_moment, second.mean if second else 0.0), expected)
 
 
-def _few(sampler: str, e: Estimate, squares: float) -> str | None:
-    """Why so few samples carry the mean that its error bar must not be believed, or None."""
+def _few(sampler: str, e: Estimate, squares: float, highest: float = 0.0) -> str | None:
+    """Why so few samples carry the mean, or its spread, that its error bar must not be believed,
+    or None; squares: E[x^2]; highest: the largest x expected."""
     if e.largest > LARGEST_SHARE * e.samples * e.mean:
         share = e.largest / (e.samples * e.mean)
         return f"one sample holds {share:.0%} of the total under {sampler} sampling"
@@ -75,4 +80,9 @@ def _few(sampler: str, e: Estimate, squares: float) -> str | None:
     if effective < FEWEST:
         need = e.samples * FEWEST / effective
         return f"{effective:.0f} effective samples under {sampler} sampling: needs about {need:.0e}"
+    most = max(e.largest, highest) - e.mean
+    spread = e.samples * (squares - e.mean**2)
+    if most > SMALLEST * e.mean and most**2 > LARGEST_SHARE * spread:
+        need = e.samples * most**2 / (LARGEST_SHARE * spread) if spread > 0.0 else math.inf
+        return f"few samples make the spread under {sampler} sampling: needs about {need:.0e}"
     return None
