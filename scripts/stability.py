@@ -74,20 +74,13 @@ double, 50 digits for the worst points and every 499th). Allowed: 1e-5 in single
 | model | points | single | double | broken | sharpest safe in single | samples: broken, length |
 |---|---|---|---|---|---|---|
 """
-#: Models whose errors are larger, and why.
-EXCEPTIONS = {
-    "ggx_kulla_conty": "1 - E is a Chebyshev series, right to a rounding of its largest term; for "
-    "small alpha 1 - E at steep angles is of the order of alpha^2 and keeps that absolute error "
-    "only. It shows where nothing else reflects: f0 near 0, away from the mirror direction.",
-}
-
 
 def page(found: dict[str, Any]) -> str:
     """The results as a table, and the exceptions with what reproduces them."""
     names = sorted({key.split()[0] for key in found})
     rows = [_row(n, *(found[f"{n} {p}"] for p in PRECISIONS)) for n in names]
     larger = [
-        f"- `{key}`: {EXCEPTIONS.get(key.split()[0], 'NOT EXPLAINED')} Worst {one['worst']:.2g}: "
+        f"- `{key}`: worst {one['worst']:.2g}, "
         f"{one['value']:.6g} for {one['truth']:.6g}, so {abs(one['value'] - one['truth']):.1e} off "
         f"(`{one['reproduce']}`)."
         for key, one in found.items()

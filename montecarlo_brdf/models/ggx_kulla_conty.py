@@ -7,7 +7,7 @@ k = F_avg^2 E_avg/(1 - F_avg (1 - E_avg)),  F_avg = f0 + (1 - f0)/21
 Sampling: visible normals for half of the samples, cosine-weighted for the rest.
 alpha: GGX width, 1e-4 to 1.  f0: reflectance at normal incidence, 0 to 1; 1 reflects everything.
 Source: Kulla & Conty 2017, "Revisiting physically based shading at Imageworks", SIGGRAPH course;
-Heitz 2014, eq. 99. E is tabulated per alpha with absolute error below 5e-11.
+Heitz 2014, eq. 99. 1 - E is tabulated per alpha with relative error below 1e-10.
 """
 from __future__ import annotations
 

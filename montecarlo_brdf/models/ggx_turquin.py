@@ -7,7 +7,7 @@ Sampling: visible normals.
 alpha: GGX width, 1e-4 to 1.  f0: reflectance at normal incidence, 0 to 1; with 1 the furnace test
 gives exactly 1.
 Source: Turquin 2019, "Practical multiple scattering compensation for microfacet models", eq. 16;
-Heitz 2014, eq. 99. E is tabulated per alpha with absolute error below 5e-11.
+Heitz 2014, eq. 99. 1 - E is tabulated per alpha with relative error below 1e-10.
 Violates: reciprocity, and energy conservation although the furnace test passes: light at grazing
 is reflected up to 2.20 times (alpha = 1; 1.39 for 0.5, 1.06 for 0.1).
 """
