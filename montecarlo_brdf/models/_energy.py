@@ -54,7 +54,7 @@ def lost(mu: float, p: Table) -> float:
 
 def logarithm(mu: float, x: float) -> float:
     """stretched/alpha ln(1 + 1/x^2)/2, x = mu/alpha."""
-    held = STEEPEST if x < STEEPEST else x
+    held = max(x, STEEPEST)
     return 0.5 * math.sqrt((1.0 - mu) * (1.0 + mu) + x * x) * log1p(1.0 / (held * held))
 
 

@@ -42,6 +42,10 @@ class Arithmetic:
         with np.errstate(all="ignore"):
             return values.astype(self.dtype)
 
+    def number(self, value: float) -> Any:
+        """A double rounded to this type."""
+        return (self.convert or self.dtype.type)(value)
+
     def function(self, name: str) -> Callable[..., Any]:
         """The operation `name` of this type: NumPy's unless it has its own."""
         return self.functions.get(name) or getattr(np, name)
@@ -114,7 +118,8 @@ def exact() -> Arithmetic:
 
 def _exactly(context: Any, x: Any) -> Any:
     """x without rounding, also a long double, which is a sum of two doubles."""
+    high = float(x)
+    if not isinstance(x, np.longdouble) or not np.isfinite(x):
+        return context.mpf(high)
     with np.errstate(all="ignore"):
-        high = float(x)
-        low = float(x - type(x)(high)) if isinstance(x, np.longdouble) and np.isfinite(x) else 0.0
-    return context.mpf(high) + context.mpf(low)
+        return context.mpf(high) + context.mpf(float(x - type(x)(high)))

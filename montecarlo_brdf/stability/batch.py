@@ -52,19 +52,20 @@ class Batch:
 
     def apply(self, name: str, *operands: Any) -> Any:
         """The operation `name` of this type; conditions come back as a Mask."""
-        values = [self._operand(o) for o in operands]
-        result = np.asarray(self.arithmetic.function(name)(*values))
+        result = np.asarray(self.arithmetic.function(name)(*map(self._operand, operands)))
+        if result.dtype == self.arithmetic.dtype:
+            return Batch(result, self.arithmetic)
         if result.dtype == bool:
             return Mask(result)
-        if result.dtype != self.arithmetic.dtype:
-            raise Widened(f"{name} of {self.arithmetic} gave {result.dtype}")
-        return Batch(result, self.arithmetic)
+        raise Widened(f"{name} of {self.arithmetic} gave {result.dtype}")
 
     def _operand(self, other: Any) -> Any:
         if isinstance(other, Batch):
             if other.arithmetic is not self.arithmetic:
                 raise Widened(f"{self.arithmetic} meets {other.arithmetic}")
             return other.values
+        if type(other) is float:  # constants, by far the most of the rest
+            return self.arithmetic.number(other)
         if isinstance(other, np.ndarray) and other.dtype == object != self.arithmetic.dtype:
             raise Widened("it puts numbers into an array, where no precision can be followed")
         if isinstance(other, np.ndarray | np.floating) and other.dtype != self.arithmetic.dtype:

@@ -32,20 +32,33 @@ def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
     value = narrow.f(points.wo, points.wi, p)
     q = rounded(p, truth_type)
     wo, wi = unit(points.wo, truth_type), unit(points.wi, truth_type)
-    truth = wide.f(wo, wi, q)
-    raw = wide.f(truth_type.array(points.wo), truth_type.array(points.wi), q)
-    moved = _conditioning(wide, wo, wi, q, truth, type_.eps)
+    given = truth_type.array(points.wo), truth_type.array(points.wi)
+    truth, raw = _together(wide, [(wo, wi), given], q)
     unscaled = _finite_distance(raw, truth, truth_type)
+
+    def judge(conditioning: Any) -> Errors:
+        return judged(value, truth, conditioning, points, type_, truth_type)
+
+    def moved(at: Any, eps: float) -> Any:
+        turned = _together(wide, _moves(wo[at], wi[at], eps, truth_type), q)
+        return _conditioning(turned, truth[at], truth_type)
+
     with np.errstate(all="ignore"):
-        found = judged(value, truth, moved + unscaled, points, type_, truth_type)
+        found = judge(unscaled)
+        at = np.flatnonzero((found.own > 0) | found.kinds["flushed"])
+        if not len(at):
+            return found
+        step = np.zeros_like(unscaled)  # where nothing is wrong it does not matter
+        step[at] = moved(at, type_.eps)
+        found = judge(step + unscaled)
         at = np.flatnonzero(found.own > type_.tolerance)
         if not len(at):
             return found
         # A step or a root of f may lie behind, within eps of both directions together: r.v = 0 of
         # Phong with n < 1. Where f is smooth, twice the move does twice as much.
-        back = _conditioning(wide, wo[at], wi[at], q, truth[at], -2.0 * type_.eps)
-        moved[at] = np.where(back > 3 * moved[at], back, moved[at])
-        return judged(value, truth, moved + unscaled, points, type_, truth_type)
+        back = moved(at, -2.0 * type_.eps)
+        step[at] = np.where(back > 3 * step[at], back, step[at])
+        return judge(step + unscaled)
 
 
 def lower_than_any_angle(points: Any, type_: Arithmetic) -> Any:
@@ -93,23 +106,27 @@ def judged(
     )
 
 
-def _conditioning(wide: Rung, wo: Any, wi: Any, q: Any, truth: Any, eps: float) -> Any:
+def _together(wide: Rung, pairs: list[Any], q: Any) -> Any:
+    """f at lists of pairs of directions, a row each: all at once, since every call costs time."""
+    wo, wi = (np.concatenate(w) for w in zip(*pairs, strict=True))
+    return wide.f(wo, wi, q).reshape(len(pairs), -1)
+
+
+def _moves(wo: Any, wi: Any, eps: float, arithmetic: Arithmetic) -> list[Any]:
+    """Both directions moved by eps along each axis in turn, and renormalised."""
+    steps = arithmetic.array(eps * np.eye(3))
+    moved = [(unit(wo + step, arithmetic), wi) for step in steps]
+    return [*moved, *((wo, unit(wi + step, arithmetic)) for step in steps)]
+
+
+def _conditioning(turned: Any, truth: Any, arithmetic: Arithmetic) -> Any:
     """How far the true value moves when a direction is known to eps radians, as rounded ones are.
     What vectors that are not quite of unit length do to the formula is added by the caller.
 
-    The sum of |f(w moved) - f(w)|/2 over the moves of both directions by eps along each axis,
-    renormalised: a property of f on the sphere, not of how a formula behaves off it.
+    The sum of |f(w moved) - f(w)|/2 over the `_moves`: a property of f on the sphere, not of how a
+    formula behaves off it.
     """
-    exact = wide.arithmetic.array
-    total = np.full(len(wo), exact(0.0), dtype=wide.arithmetic.dtype)
-    for w, wo_moves in ((wo, True), (wi, False)):
-        for k in range(3):
-            turned = w.copy()
-            turned[:, k] = turned[:, k] + exact(eps)
-            turned = unit(turned, wide.arithmetic)
-            value = wide.f(turned, wi, q) if wo_moves else wide.f(wo, turned, q)
-            total = total + _finite_distance(value, truth, wide.arithmetic) * exact(0.5)
-    return total
+    return sum(_finite_distance(f, truth, arithmetic) * arithmetic.array(0.5) for f in turned)
 
 
 def _finite_distance(a: Any, b: Any, arithmetic: Arithmetic) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 from typing import Any
@@ -86,12 +87,18 @@ class Rung:
         except Mixed:
             return prepare
         except Exception:
-            return self._rounded(self.model.prepare(type(p)(*(float(v) for v in p))))
+            return self._rounded(_in_double(self.model.prepare, type(p)(*(float(v) for v in p))))
         return prepare
 
     def _rounded(self, ready: Any) -> Any:
         """Doubles in a NamedTuple as numbers of this precision, tables as tables of them."""
         return type(ready)(*(_in(self.arithmetic, v) for v in ready))
+
+
+@functools.lru_cache(maxsize=64)
+def _in_double(prepare: Callable[[Any], Any], p: Any) -> Any:
+    """prepare(p), which may take long, once for all precisions."""
+    return prepare(p)
 
 
 class Table:
