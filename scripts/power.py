@@ -30,7 +30,7 @@ from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.models import ggx
 from montecarlo_brdf.report.judge import decide
-from montecarlo_brdf.verify.run import RUN_SAMPLES
+from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "power.json"
 THETA = 45.0

@@ -26,7 +26,7 @@ from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import MeanClaim, Measurement
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.judge import decide
-from montecarlo_brdf.verify.run import RUN_SAMPLES
+from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "resolves.json"
 CASES = (

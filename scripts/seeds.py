@@ -26,7 +26,8 @@ from montecarlo_brdf.checks.case import Case, searched
 from montecarlo_brdf.checks.claim import FitClaim, MeanClaim
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.judge import decide
-from montecarlo_brdf.verify.run import RUN_ANGLES, RUN_SAMPLES
+from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
+from montecarlo_brdf.verify.run import RUN_ANGLES
 
 TARGET = Path(__file__).parent / "results" / "seeds.json"
 CHECKS = ("furnace", "energy", "radiance", "pdf", "sampling")

@@ -13,7 +13,8 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.findings import Report
 from montecarlo_brdf.report.sentences import called
 from montecarlo_brdf.verify.common import shown_parameters
-from montecarlo_brdf.verify.run import RUN_ANGLES, RUN_SAMPLES, run
+from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
+from montecarlo_brdf.verify.run import RUN_ANGLES, run
 
 
 class Job(NamedTuple):

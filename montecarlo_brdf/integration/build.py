@@ -6,6 +6,7 @@ import functools
 import gc
 import sys
 import threading
+import warnings
 from collections.abc import Callable, Hashable, Iterator
 from pathlib import Path
 from typing import Any, Protocol
@@ -76,7 +77,8 @@ def _from_disk(key: str) -> native.NativeKernel | None:
 
 
 def _from_source(recipe: Buildable, key: str) -> native.NativeKernel:
-    with _no_collection():
+    with _no_collection(), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # what matters of them shows in an error or in the verdict
         try:
             image = compiler.compile_function(recipe.assemble(specialiser(compiler.part)))
         except compiler.NeedsRuntime:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 from montecarlo_brdf.errors import ModelError, UserError
@@ -12,9 +11,7 @@ from montecarlo_brdf.integration import build
 def compiled(name: str, recipe: build.Buildable) -> Any:
     """The kernel of a recipe for model `name`; numba's complaints become one sentence."""
     try:
-        with warnings.catch_warnings():  # what matters of them shows in the error or in the verdict
-            warnings.simplefilter("ignore")
-            return build.kernel_of(recipe)
+        return build.kernel_of(recipe)
     except (MemoryError, UserError):
         raise
     except Exception as error:  # what numba cannot compile ends in errors of every kind

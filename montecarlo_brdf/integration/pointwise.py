@@ -109,12 +109,14 @@ class Pointwise:
         import numpy as np
 
         kernel: NativeKernel = compiled(self.model.name, listing)
-        a, b = np.broadcast_arrays(np.atleast_2d(a), np.atleast_2d(b))
-        data = np.concatenate([self._numbers, np.concatenate([a, b], axis=1).ravel()])
-        data = np.ascontiguousarray(data, dtype=np.float64)
-        out = np.full((len(a), width), np.nan)
-        for k, count in paced.pieces(kernel, len(a)):
-            ints = np.array([count, len(self._numbers) + 6 * k], dtype=np.int64)
+        a, b = np.atleast_2d(a), np.atleast_2d(b)
+        many, before = len(b) if len(a) == 1 else len(a), len(self._numbers)
+        data = np.empty(before + 6 * many)
+        pairs = data[before:].reshape(many, 6)
+        data[:before], pairs[:, :3], pairs[:, 3:] = self._numbers, a, b
+        out = np.full((many, width), np.nan)
+        for k, count in paced.pieces(kernel, many):
+            ints = np.array([count, before + 6 * k], dtype=np.int64)
             if kernel(ints.ctypes.data, data.ctypes.data, out[k:].ctypes.data) != 0:
                 raise ModelError(f"model {self.model.name} raised an exception while evaluated")
         return out

@@ -47,11 +47,10 @@ class _Work:
             self.ended.set()
 
     def leave(self) -> None:
-        """Have the thread end as soon as it can."""
+        """Have the thread end at its next line."""
         _hush()
         identity = ctypes.c_ulong(self.thread.ident or 0)
         ctypes.pythonapi.PyThreadState_SetAsyncExc(identity, ctypes.py_object(Left))
-        self.ended.wait(UNWINDING)
 
 
 _left: list[_Work] = []
@@ -69,27 +68,48 @@ def _hush() -> None:
     sys.unraisablehook = hook
 
 
-def supervised(function: Callable[[], Any], limit: Limit, grace: float = 0.0) -> bool:
-    """Run `function`; False if it was left because the limit was over for `grace` seconds.
+def supervised(
+    function: Callable[[], Any], limit: Limit, grace: float = 0.0, threads: int = 1
+) -> bool:
+    """Run `function`, in several threads at once if so asked; False if it was left because the
+    limit was over for `grace` seconds.
 
-    Raises what the function raises. KeyboardInterrupt leaves the function at once.
+    Raises what the function raises in any thread. KeyboardInterrupt leaves the function at once.
     """
-    work = _started(function)
+    works = [_started(function) for _ in range(threads)]
     late: float | None = None
-    done = False
     try:
-        while not (done := work.ended.wait(TICK)):
-            if limit.over():
-                late = late or time.monotonic()
-                if time.monotonic() - late >= grace:
-                    break
+        while _running(works) and not _errors(works):
+            if _running(works)[0].ended.wait(TICK) or not limit.over():
+                continue
+            late = late or time.monotonic()
+            if time.monotonic() - late >= grace:
+                break
+        errors = _errors(works)
     finally:  # also when whoever waits here is interrupted, or left itself
-        if not done:
-            work.leave()
-            _left.append(work)
-    if done and work.error:
-        raise work.error
-    return done
+        left = _running(works)
+        _leave(left)
+    if errors:
+        raise errors[0]
+    return not left
+
+
+def _running(works: list[_Work]) -> list[_Work]:
+    return [work for work in works if not work.ended.is_set()]
+
+
+def _errors(works: list[_Work]) -> list[BaseException]:
+    return [work.error for work in works if work.error]
+
+
+def _leave(works: list[_Work]) -> None:
+    """End them as soon as they can be, and remember them in case they cannot."""
+    _left.extend(works)
+    for work in works:
+        work.leave()
+    until = time.monotonic() + UNWINDING
+    for work in works:
+        work.ended.wait(max(0.0, until - time.monotonic()))
 
 
 def _started(function: Callable[[], Any]) -> _Work:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import signal
@@ -16,7 +17,8 @@ from typing import Any
 import pytest
 from conftest import Outcome
 
-from montecarlo_brdf import load
+import montecarlo_brdf as mb
+from montecarlo_brdf import checks, load
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.integration import work
 from montecarlo_brdf.integration.estimators import directional_albedo
@@ -70,6 +72,21 @@ def test_work_that_does_not_end_is_ended() -> None:
     assert threading.active_count() == before and not still_running()
 
 
+def test_work_in_several_threads() -> None:
+    """Each does its part; what one of them raises ends them all."""
+    before, rest, done = threading.active_count(), iter(range(1000)), []
+    assert supervised(lambda: done.extend(rest), Deadline(60.0), threads=3)
+    assert sorted(done) == list(range(1000))
+    assert not supervised(endless, Deadline(0.1), threads=2)
+    turns = iter([endless, functools.partial(next, iter(()))])
+    with pytest.raises(StopIteration):
+        supervised(lambda: next(turns)(), Deadline(60.0), threads=2)
+    until = time.monotonic() + PATIENCE
+    while threading.active_count() > before and time.monotonic() < until:
+        time.sleep(0.05)
+    assert threading.active_count() == before and not still_running()
+
+
 @pytest.mark.parametrize("text", [NEVER, SLEEPS, STUCK], ids=["never", "sleeps", "stuck"])
 def test_max_time_holds(
     text: str, process: Callable[..., Outcome], user_file: Any, tmp_path: Path
@@ -88,7 +105,7 @@ def test_max_time_holds(
 def test_the_report_tells_that_the_model_did_not_return(
     cli: Callable[..., Outcome], user_file: Any
 ) -> None:
-    done = cli("run", "--model", user_file(NEVER), "--max-time", "0.5", "--format", "json")
+    done = cli("run", "--model", user_file(NEVER), "--max-time", "3", "--format", "json")
     notes = {f["note"] for r in json.loads(done.out)["results"] for f in r["findings"]}
     assert done.code == 3 and len(notes) == 1
     assert "--max-time was over before the model returned" in notes.pop()
@@ -134,6 +151,14 @@ def test_interrupts(text: str, user_file: Any, tmp_path: Path) -> None:
     assert found["measured"]["interrupted"] is True and found["verdict"] in ("inconclusive", "fail")
     names = {r["check"] for r in found["results"]}  # "run": a busy machine had not begun yet
     assert names == {"run"} or names >= {"positivity", "furnace", "sampling"}
+
+
+def test_threads_never_show_in_a_run() -> None:
+    """Checks side by side give the same bytes, in the same order, as one after another."""
+    one, *others = (
+        mb.run(mb.load("phong"), samples=1 << 14, threads=t).to_dict()["results"] for t in (1, 2, 3)
+    )
+    assert len(one) == len(checks.names()) and all(json.dumps(o) == json.dumps(one) for o in others)
 
 
 def test_cuts_never_show(monkeypatch: pytest.MonkeyPatch) -> None:
