@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from montecarlo_brdf.references._gamma import half_step
-from montecarlo_brdf.references._quadrature import TINY, Geometry, Kinks
+from montecarlo_brdf.references._quadrature import TINY, Geometry
 from montecarlo_brdf.references._rules import Array
 
 BEYOND = 50.0  # ln of the decay at which a tail no longer counts: exp(-50) = 2e-22
@@ -42,8 +42,10 @@ def _log_sine_squared(mu: Array) -> Array:
 def ggx(alpha: float) -> Distribution:
     """Walter et al. 2007, eqs. 33-34."""
 
+    rest = (1.0 - alpha) * (1.0 + alpha)
+
     def lam(mu: Array) -> Array:
-        return 0.5 * np.sqrt(mu * mu + alpha * alpha * _sine_squared(mu)) / mu - 0.5
+        return 0.5 * np.sqrt(alpha * alpha + rest * mu * mu) / mu - 0.5
 
     return Distribution(lambda t: (alpha / (alpha**2 + t * t)) ** 2 / np.pi, lam, alpha, np.inf)
 
@@ -108,7 +110,8 @@ Visibility = Callable[[Geometry, Distribution], Array]
 
 def smith(g: Geometry, d: Distribution) -> Array:
     """Height-correlated, Heitz 2014, eq. 99."""
-    return 1.0 / ((1.0 + d.lam(g.mu_i) + d.lam(np.asarray(g.mu_o))) * g.mu_i * g.mu_o)
+    view = 1.0 + d.lam(np.asarray(g.mu_o))
+    return 1.0 / ((view + d.lam(g.mu_i)) * (g.mu_o * g.mu_i))
 
 
 def separable(g: Geometry, d: Distribution) -> Array:
@@ -119,16 +122,6 @@ def v_cavity(g: Geometry, d: Distribution) -> Array:
     """Torrance & Sparrow 1967; Cook & Torrance 1982, eq. 15."""
     groove = 2.0 * g.h_n * np.minimum(g.mu_i, g.mu_o) / g.h_v
     return np.minimum(1.0, groove) / (g.mu_i * g.mu_o)
-
-
-def v_cavity_kinks(k: Array) -> tuple[Array, Array]:
-    """Slopes where min(1, 2 (n.h) min(mu_i, mu_o)/(h.v)) changes branch, in increasing order.
-
-    With t = tan x and k = tan a these are: light masked from x = 30 degrees + a/3; view masked from
-    x = 90 degrees - a; equal cosines at x = a. They meet at a = 45 degrees, that is at k = 1.
-    """
-    light = np.tan(np.pi / 6.0 + np.arctan(k) / 3.0)
-    return np.where(k > 1.0, 1.0 / np.maximum(k, 1.0), light), np.where(k > 1.0, k, light)
 
 
 def _walter_g1(mu: Array, alpha: float) -> Array:
@@ -154,16 +147,9 @@ def walter_cosine(alpha: float) -> float:
     return 1.6 * alpha / math.hypot(1.0, 1.6 * alpha)
 
 
-def cosine_kinks(mu_o: float, mu: float) -> Kinks:
-    """The slopes at which mu_i = mu: roots of (mu+mu_o) t^2 - 2 k mu_o t + mu - mu_o = 0."""
-
-    def kinks(k: Array) -> tuple[Array, Array]:
-        root = np.sqrt(np.maximum((k * mu_o) ** 2 + (mu_o - mu) * (mu_o + mu), 0.0))
-        far = np.maximum(k * mu_o + np.copysign(root, k), 0.0) / (mu + mu_o)
-        near = (mu - mu_o) / (k * mu_o + np.copysign(np.maximum(root, TINY), k))
-        return np.minimum(near, far), np.maximum(near, far)
-
-    return kinks
+def width_over_h_v(d: Distribution, mu_o: float) -> float:
+    """The scale in slopes of D times a power of 1/(h.v), which grows like 1 + k t near grazing."""
+    return min(d.alpha, mu_o)
 
 
 def kelemen(g: Geometry, d: Distribution) -> Array:

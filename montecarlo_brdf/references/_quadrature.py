@@ -16,6 +16,7 @@ nodes. Nothing here is shared with the charts of the Monte Carlo estimators. `qu
 f whatever, at a hundred times the cost.
 """
 
+import math
 from collections.abc import Callable
 from itertools import pairwise
 from typing import NamedTuple
@@ -23,8 +24,10 @@ from typing import NamedTuple
 import numpy as np
 
 from montecarlo_brdf.references._adaptive import quadrature as quadrature
+from montecarlo_brdf.references._kinks import SMOOTH, TINY, Kinks
 from montecarlo_brdf.references._rules import (
     Array,
+    Nodes,
     Sum,
     clustered,
     converge,
@@ -34,7 +37,6 @@ from montecarlo_brdf.references._rules import (
 )
 from montecarlo_brdf.references._truth import sine
 
-TINY = 1e-300
 # A depends on tan(theta_o) through its square: below this the view is the normal, to 1e-18
 NORMAL_VIEW = 1e-9
 # nodes evaluated together: larger arrays leave the cache and go back to the system every time
@@ -53,30 +55,39 @@ class Geometry(NamedTuple):
 
 
 Brdf = Callable[[Geometry], Array]
-Kinks = Callable[[Array], tuple[Array, ...]]
 
 
 def horizon(k: Array) -> Array:
-    """t_max = k + sqrt(k^2 + 1), which cancels for k < 0."""
-    size = np.abs(k) + np.sqrt(k * k + 1.0)
-    return np.where(k > 0.0, size, 1.0 / size)
+    """t_max = k + sqrt(k^2 + 1), which cancels for k < 0, in two operations."""
+    return np.exp(np.arcsinh(k))
 
 
-def azimuths(tan_o: float, n: int, break_at: float | None) -> tuple[Array, Array]:
+def azimuth_count(tan_o: float, reach: float, breaks: tuple[float, ...]) -> float:
+    """Nodes for the half circle, or for each of its parts: geometric in beta.
+
+    Gauss takes as many on half of it as the midpoint rule on all, and three times as many on the
+    whole. A lobe that ends before the horizon does and is cut by it on the way is no rational
+    function of the horizon but decays like exp(-e^(2y)), which takes more.
+    """
+    span = math.asinh(tan_o)
+    cut = span + math.log(min(reach, 1.0)) if reach < math.inf else 0.0
+    factor = 3.0 if breaks == (math.inf,) else 1.0
+    return factor * (10.0 + 4.5 * span) + min(10.0 * max(cut, 0.0), 40.0)
+
+
+def azimuths(tan_o: float, n: int, breaks: tuple[float, ...]) -> tuple[Array, Array]:
     """Nodes k and weights of the integral over the half circle of phi, as columns.
 
     Without a break: the midpoint rule in beta, geometric because the integrand is periodic.
-    With a break at k = break_at (the view's own plane if that is beyond tan_o) the integrand is
-    only piecewise smooth: Gauss on either side.
+    With breaks in k (inf: the view's own plane) the integrand is only piecewise smooth: Gauss
+    between them.
     """
     end = np.arcsinh(tan_o)
-    if break_at is None:
+    if not breaks:
         beta, weight = (np.arange(n) + 0.5) * (np.pi / n), np.full(n, np.pi / n)
     else:
-        edges = [0.0, np.pi]
-        if abs(break_at) < tan_o:
-            edges.insert(1, float(np.arccos(np.arcsinh(break_at) / end)))
-        beta, weight = panels(clustered(n), edges)
+        inner = [float(np.arccos(np.arcsinh(k) / end)) for k in breaks if abs(k) < tan_o]
+        beta, weight = panels(clustered(n), [0.0, *sorted(inner), np.pi])
     y = end * np.cos(beta)
     # sinh^2(end) - sinh^2(y) = sinh(end - y) sinh(end + y), each without cancellation
     to_end, to_start = 2.0 * end * np.sin(0.5 * beta) ** 2, 2.0 * end * np.cos(0.5 * beta) ** 2
@@ -87,26 +98,38 @@ def azimuths(tan_o: float, n: int, break_at: float | None) -> tuple[Array, Array
 def slopes(
     mu_o: float, k: Array, edges: list[Array], width: Array | float, n: int
 ) -> tuple[Geometry, Array]:
-    """Nodes in t on every panel between the edges (columns, like k), and the weights t dt."""
+    """Nodes in t on every panel from 0 to the edges (columns, like k), and the weights t dt."""
     t_max = horizon(k)
-    nodes = clustered(n)
-    last = np.arcsinh(t_max / width)
-    ends = [np.arcsinh(edge / width) for edge in edges]
-    spans = list(pairwise(ends))
-    v = np.concatenate([a + (b - a) * nodes.x for a, b in spans], axis=1)
-    weight = np.concatenate([(b - a) * nodes.weight for a, b in spans], axis=1)
-    grow, farthest = np.exp(v), np.exp(last)
-    shrink = 1.0 / grow
-    t = (0.5 * width) * (grow - shrink)
+    v, weight = _panels(clustered(n), [np.arcsinh(edge / width) for edge in edges])
+    grow, farthest = np.exp(v), np.exp(np.arcsinh(t_max / width))
+    shrink, half = 1.0 / grow, 0.5 * width
+    t = half * (grow - shrink)
     # t_max - t in factors: it decides mu_i near the horizon. What rounding takes from the first of
     # them, eps/(1 - x) at x of the way to the horizon, meets weights that shrink like 1 - x.
-    to_horizon = (0.5 * width) * (farthest - grow) * (1.0 + shrink / farthest)
+    to_horizon = half * (farthest - grow) * (1.0 + shrink / farthest)
     square = 1.0 + t * t
     mu_i = np.maximum(mu_o * to_horizon * (t + 1.0 / t_max) / square, TINY)
     mu_i = np.minimum(mu_i, 1.0)
     h_n = 1.0 / np.sqrt(square)
     geometry = Geometry(mu_o, mu_i, h_n, mu_o * (1.0 + k * t) * h_n, t, k)
-    return geometry, weight * t * (0.5 * width) * (grow + shrink)
+    return geometry, half * weight * t * (grow + shrink)
+
+
+def _panels(nodes: Nodes, ends: list[Array]) -> tuple[Array, Array]:
+    """The rule on every interval from 0 to the ends, which are columns."""
+    v, weight = [ends[0] * nodes.x], [ends[0] * nodes.weight]
+    for a, b in pairwise(ends):
+        v.append(a + (b - a) * nodes.x)
+        weight.append((b - a) * nodes.weight)
+    if len(ends) == 1:
+        return v[0], weight[0]
+    return np.concatenate(v, axis=1), np.concatenate(weight, axis=1)
+
+
+def check_cosine(mu: float) -> None:
+    """A direction below or at the horizon has no albedo."""
+    if not 0.0 < mu <= 1.0:
+        raise ValueError(f"cos_theta must lie in (0, 1], not {mu!r}")
 
 
 def slope_albedo(
@@ -115,36 +138,36 @@ def slope_albedo(
     *,
     width: float,
     reach: float = np.inf,
-    kinks: Kinks | None = None,
-    azimuth_break: float | None = None,
+    kinks: Kinks = SMOOTH,
 ) -> tuple[float, float]:
     """Albedo of an isotropic f and a bound on its error.
 
     `width` is the lobe's scale in slope, `reach` the slope beyond which it is below 1e-20 of its
-    peak, `kinks(k)` the slopes at which f has a kink, `azimuth_break` the k at which they change
-    their order.
+    peak, `kinks` where f is not smooth.
     """
-    if not 0.0 < mu_o <= 1.0:
-        raise ValueError(f"cos_theta must lie in (0, 1], not {mu_o!r}")
+    check_cosine(mu_o)
     tan_o = max(sine(mu_o) / mu_o, NORMAL_VIEW)
-    depth = np.arcsinh(min(tan_o + np.hypot(tan_o, 1.0), reach) / width)
-    # Gauss on half the circle takes as many, on the whole three times the midpoint rule's nodes
-    factor = 3.0 if azimuth_break == np.inf else 1.0
-    parts = 1 + (len(kinks(np.zeros(1))) if kinks else 0)  # panels that share the depth
-    n_azimuth, n_slope = factor * (8.0 + 6.0 * np.arcsinh(tan_o)), 24.0 + 4.0 * depth / parts
+    n_azimuth = azimuth_count(tan_o, reach, kinks.breaks)
+    parts = 1 + kinks.curves  # panels that share the depth
 
-    def part(k: Array, azimuth_weight: Array, n: int) -> Sum:
-        end = np.minimum(horizon(k), reach)
-        inner = [np.clip(edge, 0.0, end) for edge in (kinks(k) if kinks else ())]
-        g, weight = slopes(mu_o, k, [np.zeros_like(k), *inner, end], width, n)
+    def n_slope(end: float) -> float:
+        return 28.0 + 4.0 * math.asinh(end / width) / parts
+
+    def part(k: Array, edges: list[Array], azimuth_weight: Array, n: int) -> Sum:
+        g, weight = slopes(mu_o, k, edges, width, n)
         density = brdf(g) * g.mu_i * g.h_v * (g.h_n * g.h_n * g.h_n)
         return total(8.0 * azimuth_weight * weight * density)  # twice the half circle
 
     def rule(size: float) -> Sum:
-        k, weight = azimuths(tan_o, node_count(size * n_azimuth), azimuth_break)
-        n = node_count(size * n_slope)
-        step = max(1, TOGETHER // (n * parts))
-        each = [part(k[i : i + step], weight[i : i + step], n) for i in range(0, len(k), step)]
+        k, weight = azimuths(tan_o, node_count(size * n_azimuth), kinks.breaks)
+        end = np.minimum(horizon(k), reach)
+        edges = [*(np.minimum(np.maximum(edge, 0.0), end) for edge in kinks.slopes(k)), end]
+        each, i = [], 0
+        while i < len(k):  # from the farthest horizon to the nearest, which needs fewer slopes
+            n = node_count(size * n_slope(end[i, 0]))
+            here = slice(i, i + max(1, TOGETHER // (n * parts)))
+            each.append(part(k[here], [edge[here] for edge in edges], weight[here], n))
+            i = here.stop
         return Sum(sum(s.value for s in each), sum(s.magnitude for s in each))
 
     return converge(rule)

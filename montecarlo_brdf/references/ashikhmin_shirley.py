@@ -14,6 +14,7 @@ import numpy as np
 from montecarlo_brdf.references import _fresnel
 from montecarlo_brdf.references import _microfacet as microfacet
 from montecarlo_brdf.references._bihemispherical import hemispherical_mean
+from montecarlo_brdf.references._kinks import Kinks
 from montecarlo_brdf.references._quadrature import Geometry, slope_albedo
 from montecarlo_brdf.references._rules import Array, independent
 from montecarlo_brdf.references._truth import EPSILON, Truth
@@ -29,12 +30,10 @@ def _specular(mu_o: float, rs: float, n: float) -> tuple[float, float]:
         lobe = (n + 1.0) / (8.0 * math.pi) * np.exp(-0.5 * n * np.log1p(g.t * g.t))
         return lobe * _fresnel.schlick(g.h_v, rs) / (g.h_v * np.maximum(g.mu_i, g.mu_o))
 
-    def equal_cosines(k: Array) -> tuple[Array]:
-        return (np.maximum(k, 0.0),)
-
-    return slope_albedo(
-        brdf, mu_o, width=d.alpha, reach=d.reach, kinks=equal_cosines, azimuth_break=0.0
-    )
+    # equal cosines at t = k, until that is beyond the lobe
+    breaks = (0.0, d.reach) if d.reach < 1.0 else (0.0,)
+    equal = Kinks(lambda k: (np.maximum(k, 0.0),), 1, breaks)
+    return slope_albedo(brdf, mu_o, width=d.alpha, reach=d.reach, kinks=equal)
 
 
 def _sum(diffuse: float, specular: tuple[float, float]) -> Truth:

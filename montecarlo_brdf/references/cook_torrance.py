@@ -2,19 +2,18 @@
 
 Cook & Torrance 1982 (normalisation "pi": division by pi instead of 4); Walter et al. 2007; Heitz
 2014. Quadrature in the slope domain of formulas in slopes and cosines: no vector is formed, no
-difference of large numbers taken, at any alpha and angle. V-cavity masking and Walter's rational
-fit have kinks, on which panels are split.
+difference of large numbers taken, at any alpha and angle. V-cavity masking, Walter's rational fit
+and total reflection have kinks, on which panels are split.
 """
 
 import math
 from typing import Any
 
-import numpy as np
-
-from montecarlo_brdf.references import _fresnel
+from montecarlo_brdf.references import _fresnel, _kinks
 from montecarlo_brdf.references import _microfacet as microfacet
 from montecarlo_brdf.references._bihemispherical import hemispherical_mean
-from montecarlo_brdf.references._quadrature import Geometry, slope_albedo
+from montecarlo_brdf.references._kinks import SMOOTH, Kinks
+from montecarlo_brdf.references._quadrature import Geometry, check_cosine, slope_albedo
 from montecarlo_brdf.references._rules import Array, independent
 from montecarlo_brdf.references._truth import Truth, sine
 
@@ -31,22 +30,22 @@ def reflectance(x: Array, fresnel: str, f0: float, eta: float, k: float) -> Arra
     return _fresnel.fresnel(x, eta, {"dielectric": 0.0, "conductor": k}[fresnel])
 
 
-def _kinks(distribution: str, masking: str, mu_o: float, alpha: float) -> dict[str, Any]:
-    """Where f is not smooth, for `slope_albedo`."""
+def _masking_kinks(distribution: str, masking: str, mu_o: float, alpha: float) -> Kinks:
     if masking == "v_cavity":
-        return {
-            "kinks": microfacet.v_cavity_kinks,
-            "azimuth_break": 1.0 if mu_o * mu_o < 0.5 else None,
-        }
+        return _kinks.v_cavity(mu_o)
     if masking.startswith("walter"):
-        mu = microfacet.walter_cosine(alpha)
-        turn = math.sqrt(max((mu - mu_o) * (mu + mu_o), 0.0)) / mu_o
-        return {"kinks": microfacet.cosine_kinks(mu_o, mu), "azimuth_break": turn or None}
+        return _kinks.cosine(mu_o, microfacet.walter_cosine(alpha))
     if masking in ("smith", "separable") and distribution != "ggx" and alpha > ROUGH:
-        # Lambda is not analytic where the light is at the normal, t = tan(theta_o/2), phi = 0
-        half = sine(mu_o) / (1.0 + mu_o)
-        return {"kinks": lambda k: (np.full_like(k, half),), "azimuth_break": math.inf}
-    return {}
+        return _kinks.light_at_normal(mu_o, sine(mu_o))  # Lambda is not analytic there
+    return SMOOTH
+
+
+def _critical_cosine(fresnel: str, eta: float, k: float) -> float | None:
+    """h.v below which an index below 1 reflects totally; absorption k only rounds the kink off."""
+    k = k if fresnel == "conductor" else 0.0
+    square = 1.0 - (eta - k) * (eta + k)
+    exact = fresnel in ("dielectric", "conductor") and eta < 1.0 and 0.0 < square < 1.0
+    return math.sqrt(square) if exact else None
 
 
 def integrate(
@@ -73,8 +72,13 @@ def integrate(
         value = density * visibility(g, d) * reflectance(g.h_v, fresnel, f0, eta, k)
         return value / divisor
 
-    kinks = _kinks(distribution, masking, mu_o, d.alpha)
-    return slope_albedo(brdf, mu_o, width=d.alpha, reach=d.reach, **kinks)
+    check_cosine(mu_o)
+    shadows = _masking_kinks(distribution, masking, mu_o, d.alpha)
+    critical = _critical_cosine(fresnel, eta, k)
+    total = _kinks.total_reflection(mu_o, critical) if critical else SMOOTH
+    kinks = _kinks.together(shadows, total, sine(mu_o) / mu_o)
+    width = microfacet.width_over_h_v(d, mu_o) if masking == "kelemen" else d.alpha
+    return slope_albedo(brdf, mu_o, width=width, reach=d.reach, kinks=kinks)
 
 
 def albedo(cos_theta_o: float, **parameters: Any) -> Truth:
@@ -92,5 +96,8 @@ def bihemispherical(**parameters: Any) -> Truth:
     # with the masking of light at the normal not smooth, A is not smooth there either
     normal = (1.0,) if d.alpha > ROUGH else ()
     panels = breaks.get(parameters.get("masking", "smith"), normal)
+    optics = (parameters.get(name, value) for name, value in (("eta", 1.5), ("k", 0.0)))
+    critical = _critical_cosine(parameters.get("fresnel", "schlick"), *optics)
+    panels = tuple(sorted({*panels, critical})) if critical else panels
     mean = hemispherical_mean(lambda mu: integrate(mu, **parameters), d.alpha, panels)
     return independent(mean, SOURCE)

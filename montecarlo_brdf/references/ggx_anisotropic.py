@@ -61,7 +61,7 @@ def _integrate(
         x, y = np.cos(phi)[:, None], np.sin(phi)[:, None]
         m = 1.0 / np.hypot(x / alpha_x, y / alpha_y)
         k = x * view_x + y * view_y
-        g, measure = slopes(mu_o, k, [np.zeros_like(k), horizon(k)], m, node_count(size * n_slope))
+        g, measure = slopes(mu_o, k, [horizon(k)], m, node_count(size * n_slope))
         # the light's direction times alpha, from w_i = 2 (h.v) h - w_o
         twice = 2.0 * g.h_v * g.h_n * g.t
         light_x, light_y = (
