@@ -1,10 +1,9 @@
 """Jittered grids: one point in every cell of a grid of columns and rows."""
 from __future__ import annotations
 
-from montecarlo_brdf.bits import reverse32, u32, u64
+from montecarlo_brdf.bits import u32, u64
 from montecarlo_brdf.sampling.independent import independent_axis
 from montecarlo_brdf.sampling.keys import Point, Shape, axis_key
-from montecarlo_brdf.sampling.sobol import owen_reversed
 
 
 def grid(size: int) -> Shape:
@@ -16,12 +15,23 @@ def grid(size: int) -> Shape:
 def shuffled(key: int, index: int, axis: int, shape: Shape) -> int:
     """A permutation of [0, size): coordinates with different orders are independent of each other.
 
-    Nested scrambling from the highest bit maps indices below 2^m to indices that differ in their
-    lowest m bits.
+    Sums, products with odd numbers and shifted halves, each of which permutes words of m bits, in
+    turn. (Nested scrambling would keep together what it starts from: from the highest bit the
+    halves of all coordinates, and their quarters, and so on; from the lowest bit the rows.)
     """
-    seed = u32(axis_key(key, u64(16) + axis) >> u64(32))
-    word = reverse32(u32(owen_reversed(u32(reverse32(u32(index))), seed)))
-    return u64(word) & u64(u64(shape[0]) - u64(1))
+    random = axis_key(key, u64(16) + axis)
+    last, half = u32(u64(shape[0]) - u64(1)), u32(u64(shape[2]) + u64(1))
+    x = stirred(u32(index), u32(random), u32(random >> u64(8)) | u32(1), last, half)
+    x = stirred(x, u32(random >> u64(32)), u32(0x85EBCA6B), last, half)
+    x = stirred(x, u32(random >> u64(16)), u32(0xC2B2AE35), last, half)
+    return u64(stirred(x, u32(random >> u64(24)), u32(0x27D4EB2F), last, half))
+
+
+def stirred(x: int, add: int, odd: int, last: int, half: int) -> int:
+    """One turn on words of m bits, of which `last` has all: low bits change high ones by the
+    product, high bits low ones by the shift of more than m/2."""
+    x = u32(u32(x + add) * odd) & last
+    return x ^ (x >> half)
 
 
 def column(key: int, index: int, cell: int, axis: int, shape: Shape) -> float:
