@@ -31,6 +31,7 @@ DRAWS = 1.5  # per sample allowed: with 2^20 draws honest ones of two standard d
 MOST = 3 << 19  # draws per look
 FEWER = 1 << 18  # samples elsewhere
 SUSPICIOUS = 1e-3  # a p-value that makes grids finer
+GROSS = 5.0  # times the tolerance: what no finer grid explains, its own error being taken off
 HEAVIEST = 1.02  # a mass that cells can stand
 
 
@@ -79,7 +80,8 @@ def refined(
     def measure(plan: Plan, level: float) -> Fit:
         for size in sizes:
             found = fit(case, theta, cells(size), plan, level)
-            if found.upper <= tolerance or found.p_value > SUSPICIOUS:
+            gross = found.p_value < level and found.distance > GROSS * tolerance
+            if found.upper <= tolerance or found.p_value > SUSPICIOUS or gross:
                 break
         return found
 
