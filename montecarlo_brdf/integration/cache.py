@@ -10,10 +10,12 @@ import contextlib
 import hashlib
 import os
 import tempfile
+import time
 from pathlib import Path
 
 DIGEST = 16
 KEEP = 2000  # files; the least recently used beyond that are removed
+LEFT_BEHIND = 3600.0  # seconds after which nobody writes a file any more
 
 
 def directory() -> Path:
@@ -54,6 +56,7 @@ def write(name: str, image: bytes) -> None:
             file.write(_digest(image) + image)
         os.replace(temporary, folder / f"{name}.o")
         _prune(folder)
+        clear_leftovers(folder)
     except OSError:
         with contextlib.suppress(OSError):
             os.unlink(temporary)
@@ -70,3 +73,11 @@ def _prune(folder: Path) -> None:
     for path in sorted(files, key=lambda p: p.stat().st_mtime)[: len(files) - KEEP]:
         with contextlib.suppress(OSError):
             path.unlink()
+
+
+def clear_leftovers(folder: Path) -> None:
+    """Remove what processes that were killed while they wrote have left."""
+    for path in folder.glob("*.part"):
+        with contextlib.suppress(OSError):
+            if time.time() - path.stat().st_mtime > LEFT_BEHIND:
+                path.unlink()

@@ -46,9 +46,13 @@ def _findings(model: Any, o: Outcome, promised: bool) -> list[Finding]:
         )  # fmt: skip
 
     found = [at_most("error of f", _own(o), o.tolerance, *_worst(model, o, o.worst))]
-    broken = sum(o.counts[k] for k in ("nan", "inf", "negative"))
-    first = next((o.first[k] for k in ("nan", "inf", "negative") if k in o.first), None)
-    found.append(at_most("f is NaN, Inf or negative", float(broken), 0.0, *_worst(model, o, first)))
+    kinds = {"nan": "NaN", "inf": "Inf", "negative": "negative"}
+    if "positivity" in model.disclaims:
+        del kinds["negative"]
+    broken = sum(o.counts[k] for k in kinds)
+    first = next((o.first[k] for k in kinds if k in o.first), None)
+    quantity = f"f is {', '.join(kinds.values())}"
+    found.append(at_most(quantity, float(broken), 0.0, *_worst(model, o, first)))
     if o.safe:
         found.append(_safe(o, where))
     if o.draws:

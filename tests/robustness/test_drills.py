@@ -1,73 +1,24 @@
 """What goes wrong around the program: each drill ends in a clear sentence or a right result."""
 
+# ruff: noqa: F401, F811 (fixtures are imported, and named by arguments)
+
 from __future__ import annotations
 
-import json
-import os
 import resource
 import shutil
 import signal
 import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-COMMAND = [sys.executable, "-m", "montecarlo_brdf"]
-QUICK = [
-    "furnace",
-    "--model",
-    "lambert",
-    "--theta-o",
-    "0,60",
-    "--samples",
-    "2^10",
-    "--format",
-    "json",
-]
+from drills import QUICK, results, run, start, truth, warm
 
 
 def slow(value: str) -> Any:
     """A variation of a drill, only for `-m slow`."""
     return pytest.param(value, marks=pytest.mark.slow)
-
-
-def start(*arguments: Any, cache: Path | None, **options: Any) -> subprocess.Popen[str]:
-    environment = {**os.environ, **options.pop("env", {})}
-    environment.pop("BRDF_CHECK_CACHE_DIR", None)
-    if cache:
-        environment["BRDF_CHECK_CACHE_DIR"] = str(cache)
-    for name in [k for k, v in environment.items() if v is None]:
-        del environment[name]
-    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
-    return subprocess.Popen([*COMMAND, *map(str, arguments)], env=environment, text=True, **streams)
-
-
-def run(*arguments: Any, cache: Path | None, **options: Any) -> tuple[int, str, str]:
-    """Exit code, stdout, stderr; a traceback is never an answer."""
-    process = start(*arguments, cache=cache, **options)
-    out, err = process.communicate(timeout=120)
-    assert "Traceback" not in (err or "")
-    return process.returncode, out, err
-
-
-def results(out: str) -> Any:
-    return json.loads(out)["results"]
-
-
-@pytest.fixture(scope="module")
-def warm(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A cache that holds the kernels of QUICK."""
-    folder = tmp_path_factory.mktemp("warm")
-    assert run(*QUICK, cache=folder)[0] == 0
-    return folder
-
-
-@pytest.fixture(scope="module")
-def truth(warm: Path) -> Any:
-    return results(run(*QUICK, cache=warm)[1])
 
 
 def limited(size: int) -> Callable[[], None]:
@@ -136,35 +87,6 @@ def test_damaged_kernels_are_not_used(damage: str, warm: Path, tmp_path: Path, t
         )
     code, out, _ = run(*QUICK, cache=cache)
     assert code == 0 and results(out) == truth
-
-
-KILLED = """
-import os, signal, sys
-from pathlib import Path
-from montecarlo_brdf.report import write
-os.replace = lambda *a: os.kill(os.getpid(), signal.SIGKILL)
-write.write_text(Path(sys.argv[1]), "new" * 10_000)
-"""
-
-
-def test_killed_in_the_middle_of_a_write(tmp_path: Path, warm: Path) -> None:
-    target = tmp_path / "report.json"
-    target.write_text("older report")
-    done = subprocess.run([sys.executable, "-c", KILLED, str(target)], timeout=60)
-    assert done.returncode == -signal.SIGKILL
-    assert target.read_text() == "older report"
-    assert run(*QUICK, "--export-json", target, cache=warm)[0] == 0
-    assert json.loads(target.read_text())["results"]
-
-
-def test_killed_while_compiling(tmp_path: Path, truth: Any) -> None:
-    process = start(*QUICK, cache=tmp_path)
-    with pytest.raises(subprocess.TimeoutExpired):
-        process.communicate(timeout=0.4)
-    process.kill()
-    process.communicate()
-    (tmp_path / "half.part").write_bytes(b"half a kernel")
-    assert results(run(*QUICK, cache=tmp_path)[1]) == truth
 
 
 @pytest.mark.parametrize("home", [None, *map(slow, ("/proc/1/no_such_home", ""))])

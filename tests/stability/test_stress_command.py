@@ -63,3 +63,31 @@ def test_infinite_errors_are_the_worst_of_a_heat_map() -> None:
 
     points = [(30.0, 0.1, None), (30.0, 0.1, 1e-9), (89.0, 0.1, 0.0), (89.0, 0.2, 7.0)]
     assert _worst(points) == {(60.0, 0.1): 1.0, (1.0, 0.1): 1e-17, (1.0, 0.2): 1.0}
+
+
+def test_a_heat_map_has_a_cell_per_angle_and_value_and_names_the_parameter() -> None:
+    from matplotlib.figure import Figure
+
+    from montecarlo_brdf.report.heat import draw
+
+    findings = [{"quantity": "smallest safe alpha", "where": {"precision": "float32"}}]
+    points = [(theta, value, 1e-6) for theta in (0.0, 60.0, 89.99) for value in (1e-4, 0.3)]
+    figure = Figure()
+    draw({"results": [{"model": "m", "findings": findings, "curves": [points]}]}, figure)
+    axes = figure.axes[0]
+    assert axes.get_ylabel() == "alpha" and axes.get_title() == "m, float32"
+    assert [t.get_text() for t in axes.get_xticklabels()] == ["90", "30", "0.01"]
+    assert [t.get_text() for t in axes.get_yticklabels()] == ["0.0001", "0.3"]
+    assert axes.collections[0].get_array().shape == (2, 3)
+
+
+def test_a_model_that_disclaims_positivity_may_be_negative() -> None:
+    from montecarlo_brdf import loading
+    from montecarlo_brdf.report.stress import result
+    from montecarlo_brdf.stability.stress import Outcome
+
+    found = Outcome("float32", 1e-5, 2.0**-23, counts={"nan": 0, "inf": 0, "negative": 3})
+    said = {n: result(loading.load(n), [found], ("float32",)) for n in ("phong", "phong_unclamped")}
+    verdicts = {n: [(f.quantity, f.verdict) for f in r.findings][1] for n, r in said.items()}
+    assert verdicts["phong"] == ("f is NaN, Inf, negative", "fail")
+    assert verdicts["phong_unclamped"] == ("f is NaN, Inf", "pass")
