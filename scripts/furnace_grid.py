@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import collections
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -40,14 +41,21 @@ def counted(model: Any, sampler: str, seed: int) -> collections.Counter[str]:
             finding = verdict_of(model, p, angle, sampler, seed)
             verdict, note = finding.verdict, finding.note or ""
             if verdict == "inconclusive" and note.startswith("undecided"):
-                verdict = verdict_of(model, p, angle, sampler, seed, MORE).verdict
-                verdict += f", {MORE} samples"
+                verdict = with_more(verdict_of(model, p, angle, sampler, seed, MORE))
             elif verdict == "inconclusive":
                 verdict = f"not used: {note.partition(':')[0]}"
             elif verdict == "fail":
                 print("FAIL", model.name, sampler, seed, p, angle)
             counts[verdict] += 1
     return counts
+
+
+def with_more(finding: Any) -> str:
+    """The verdict where more samples were asked for, or that far more would be needed."""
+    need = re.search(r"needs about (\S+?),", finding.note or "")
+    if finding.verdict == "inconclusive" and need and float(need[1]) > MORE:
+        return f"not used: resolves the tolerance with more than {MORE} samples only"
+    return f"{finding.verdict}, {MORE} samples"
 
 
 def verdict_of(model: Any, p: Any, angle: float, sampler: str, seed: int, most: int = MOST) -> Any:

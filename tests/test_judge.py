@@ -246,3 +246,33 @@ def test_a_run_is_as_bad_as_its_worst_finding(
 
 def test_worst_of_nothing_is_skipped() -> None:
     assert worst([]) == "skipped"
+
+
+def rows(finding: Finding) -> dict[str, tuple[str, int]]:
+    return {r["estimator"]: (r["verdict"], r["samples"]) for r in finding.estimators}
+
+
+def test_what_can_not_decide_is_not_sampled_to_the_end() -> None:
+    """A lobe that cosine sampling would resolve with 1e10 samples, which its own did at once."""
+    blunt = steady(1.0, 0.05, name="cosine")
+    finding = decide(claim(both(blunt, steady(1.0, 1e-5, name="own"))), PLAN)
+    assert finding.verdict == "pass"
+    verdict, samples = rows(finding)["cosine"]
+    assert verdict == "inconclusive" and samples < PLAN.samples
+    reason = next(r["not_used"] for r in finding.estimators if r["estimator"] == "cosine")
+    assert float(reason.rpartition("about ")[2]) > 100 * PLAN.samples
+
+
+def test_what_may_still_refute_is_sampled_on() -> None:
+    """It can not resolve the tolerance, but what it is off is more than the last look will."""
+    error = 2e-3
+    wrong = steady(1.0 + 7.0 * error, error, name="cosine")
+    finding = decide(claim(both(wrong, steady(1.0, 1e-6, name="own"))), PLAN)
+    assert finding.verdict == "fail"
+    assert rows(finding)["cosine"][1] > FIRST_LOOK
+
+
+def test_where_none_decides_all_are_sampled_to_the_end() -> None:
+    finding = decide(claim(both(steady(1.0, 0.1), steady(1.0, 0.05, name="two"))), PLAN)
+    assert (finding.verdict, finding.samples) == ("inconclusive", PLAN.samples)
+    assert "needs about" in (finding.note or "")

@@ -28,6 +28,18 @@ SCALE = {"uniform": 6.283185307179586, "cosine": 3.141592653589793}
 DENSITY = {"uniform": 0.0, "cosine": 1.0}
 
 
+class Unfit(str):
+    """Why an estimate must not be believed, and how many samples would cure it, 0 if unknown."""
+
+    needs = 0.0
+
+
+def _unfit(reason: str, needs: float) -> Unfit:
+    found = Unfit(f"{reason}: needs about {needs:.0e}" if needs < math.inf else reason)
+    found.needs = needs
+    return found
+
+
 class Sight(NamedTuple):
     """What is known about a case before it is sampled."""
 
@@ -60,13 +72,15 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
     if sampler not in SCALE:
         return _few(sampler, e, e.second_moment)
     if not moment_is_finite(2, sampler, sight.exponent):
-        return f"infinite variance under {sampler} sampling: f grows like mu^-{sight.exponent:.2f}"
+        grows = f"f grows like mu^-{sight.exponent:.2f}"
+        return _unfit(f"infinite variance under {sampler} sampling: {grows}", math.inf)
     if not moment_is_finite(4, sampler, sight.exponent):
-        return f"infinite fourth moment under {sampler} sampling: its error bar can not be trusted"
+        useless = "its error bar can not be trusted"
+        return _unfit(f"infinite fourth moment under {sampler} sampling: {useless}", math.inf)
     expected = sight.highest * SCALE[sampler]
     if expected > LARGEST_SHARE * e.samples * e.mean:
         need = expected / (LARGEST_SHARE * e.mean)
-        return f"a lobe that {sampler} sampling hardly hits: needs about {need:.0e} samples"
+        return _unfit(f"a lobe that {sampler} sampling hardly hits", need)
     return _few(sampler, e, max(e.second_moment, second.mean if second else 0.0), expected)
 
 
@@ -79,10 +93,10 @@ def _few(sampler: str, e: Estimate, squares: float, highest: float = 0.0) -> str
     effective = e.samples * e.mean**2 / squares
     if effective < FEWEST:
         need = e.samples * FEWEST / effective
-        return f"{effective:.0f} effective samples under {sampler} sampling: needs about {need:.0e}"
+        return _unfit(f"{effective:.0f} effective samples under {sampler} sampling", need)
     most = max(e.largest, highest) - e.mean
     spread = e.samples * (squares - e.mean**2)
     if most > SMALLEST * e.mean and most**2 > LARGEST_SHARE * spread:
         need = e.samples * most**2 / (LARGEST_SHARE * spread) if spread > 0.0 else math.inf
-        return f"few samples make the spread under {sampler} sampling: needs about {need:.0e}"
+        return _unfit(f"few samples make the spread under {sampler} sampling", need)
     return None

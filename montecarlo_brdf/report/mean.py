@@ -14,7 +14,16 @@ from montecarlo_brdf.checks.claim import MeanClaim, Measurement
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.findings import Finding
 from montecarlo_brdf.report.looks import FRESH, GROWTH, looks
-from montecarlo_brdf.report.opinions import Opinion, changed, judged, overall, resolves, telling
+from montecarlo_brdf.report.opinions import (
+    Opinion,
+    changed,
+    judged,
+    needed,
+    overall,
+    resolves,
+    settled,
+    telling,
+)
 
 CONFIRMING_REPLICATES = 64
 #: Jittered points: sums of independent terms, whose tails are those of Student's t where a net of
@@ -23,14 +32,14 @@ CONFIRMING_POINTS = "stratified"
 
 
 def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
-    """The finding for a mean: looked at until every fit estimator has decided."""
+    """The finding for a mean: looked at until every estimator that can has decided."""
     opinions: list[Opinion] = []
     for look, samples in enumerate(looks(plan.samples), start=1):
         spent = level * 2.0**-look
         sized = plan._replace(samples=samples)
         opinions = judged(claim, claim.measure(sized), spent)
         opinions = confirmed(claim, sized, spent, opinions)
-        if overall(opinions) == "fail" or {o.verdict for o in opinions} == {"pass"}:
+        if overall(opinions) == "fail" or settled(claim, opinions, plan.samples):
             break
     if claim.fallback and overall(opinions) == "inconclusive":
         opinions += _asked_last(claim, claim.fallback, plan.seed, spent)
@@ -90,8 +99,8 @@ def _finding(
         samples=e.samples,
         estimator=shown.measurement.estimator,
         reference={k: reference[k] for k in ("kind", "source", "error")} if expected else None,
-        estimators=[_row(o) for o in opinions],
-        note=known if verdict == "known" else _note(verdict, opinions) or e.method or None,
+        estimators=[_row(claim, o) for o in opinions],
+        note=known if verdict == "known" else _note(claim, verdict, opinions) or e.method or None,
         hint=_hint(claim, e.mean, opinions) if verdict in ("fail", "known") else None,
         reproduce=claim.reproduce or None,
     )
@@ -106,7 +115,7 @@ def _hint(claim: MeanClaim, value: float, opinions: list[Opinion]) -> str | None
     return hint(claim, value, only_own=bool(others) and all(map(math.isfinite, others)))
 
 
-def _row(opinion: Opinion) -> dict[str, object]:
+def _row(claim: MeanClaim, opinion: Opinion) -> dict[str, object]:
     m = opinion.measurement
     row: dict[str, object] = {
         "estimator": m.estimator,
@@ -119,17 +128,20 @@ def _row(opinion: Opinion) -> dict[str, object]:
         row["not_used"] = m.unfit
     elif opinion.verdict == "inconclusive":
         row["not_used"] = (
-            f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples"
+            f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples: "
+            f"needs about {needed(claim, opinion):.0e}"
         )
     return row
 
 
-def _note(verdict: str, opinions: list[Opinion]) -> str | None:
+def _note(claim: MeanClaim, verdict: str, opinions: list[Opinion]) -> str | None:
     """What an inconclusive finding needs."""
     if verdict != "inconclusive":
         return None
     reasons = [o.measurement.unfit for o in opinions if o.measurement.unfit]
-    fit = [o.measurement.estimate.samples for o in opinions if not o.measurement.unfit]
+    fit = [o for o in opinions if not o.measurement.unfit]
     if fit:
-        return f"undecided at {fit[0]} samples: allow more with --samples"
+        need = min(needed(claim, o) for o in fit)
+        samples = fit[0].measurement.estimate.samples
+        return f"undecided at {samples} samples: needs about {need:.0e}, allow more with --samples"
     return reasons[0] if reasons else None

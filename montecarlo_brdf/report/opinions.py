@@ -12,6 +12,10 @@ from montecarlo_brdf.report.looks import beyond
 
 #: how often a deviation of the size `resolves` may escape
 ESCAPES = 0.05
+#: an error falls like samples^-FASTEST at best: that of good points for a narrow lobe
+FASTEST = 1.0
+#: standard errors that the truth is from an estimate at most, where that only saves work
+SURE = 4.0
 
 
 class Opinion(NamedTuple):
@@ -71,6 +75,33 @@ def overall(opinions: list[Opinion]) -> str:
     if "fail" in verdicts:
         return "fail"
     return "pass" if "pass" in verdicts else "inconclusive"
+
+
+def needed(claim: MeanClaim, opinion: Opinion, rate: float = 0.5) -> float:
+    """Samples that would resolve the tolerance, the error falling like samples^-rate."""
+    room = claim.tolerance - (claim.expected.error if claim.expected else 0.0)
+    samples = opinion.measurement.estimate.samples
+    return samples * (opinion.half_width / room) ** (1.0 / rate) if room > 0.0 else math.inf
+
+
+def settled(claim: MeanClaim, opinions: list[Opinion], most: int) -> bool:
+    """Whether sampling on, up to `most`, changes nothing: the claim is held, and no other
+    estimator will resolve the tolerance, nor refute what it does not look like refuting."""
+    return overall(opinions) == "pass" and all(
+        o.verdict == "pass" or _hopeless(claim, o, most) for o in opinions
+    )
+
+
+def _hopeless(claim: MeanClaim, o: Opinion, most: int) -> bool:
+    e, expected = o.measurement.estimate, claim.expected
+    if o.verdict == "unfit":
+        return getattr(o.measurement.unfit, "needs", 0.0) > most
+    if expected is None or needed(claim, o, FASTEST) <= most:
+        return False
+    over = e.mean - expected.value
+    over = over if claim.bound == "at most" else abs(over)
+    in_the_end = o.half_width * math.sqrt(e.samples / most)
+    return over + SURE * e.stderr <= claim.tolerance + expected.error + in_the_end
 
 
 def telling(opinions: list[Opinion]) -> Opinion:
