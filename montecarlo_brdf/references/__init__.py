@@ -9,9 +9,9 @@ One file per model: `references/ggx.py` is the truth about `models/ggx.py`. A fi
 
 and nothing here is listed by hand: a new file in this folder is a new reference. The names with an
 underscore are the machinery: `_truth` (results), `_gamma` and `_fresnel` (special functions),
-`_rules`, `_quadrature` and `_adaptive` (deterministic integration; `_quadrature.quadrature` takes
-any f). No file imports anything else of the
-package, and numpy and scipy are imported only when a function needs them.
+`_rules`, `_kinks`, `_quadrature` and `_adaptive` (deterministic integration;
+`_quadrature.quadrature` takes any f). No file imports anything else of the package, and numpy and
+scipy are imported only when a function needs them.
 """
 
 import importlib
