@@ -104,17 +104,18 @@ def smooth_part(mu: Any, alpha: float) -> Any:
     return (1.0 + x) ** 3 * (lost_exactly(mu, alpha) / x - logarithmic)
 
 
-def average_lost(p: Table) -> float:
+@functools.lru_cache(maxsize=1024)
+def average_lost(alpha: float) -> float:
     """2 integral of (1 - E) mu dmu, by Gauss-Legendre over z with 1 - (1 + x)^(-1/4) ~ z^2, in
     which the logarithm at the horizon does not sting."""
     import numpy as np
 
     nodes, weights = legendre(64)
     z = 0.5 + 0.5 * nodes
-    away = 1.0 - least_root(p.alpha)
-    slope = 8.0 * p.alpha * away * z / (1.0 - away * z * z) ** 5  # dmu/dz
-    mu = cosine_at(1.0 - 2.0 * z * z, p.alpha)
-    missing = np.array([lost(m, p) for m in mu.tolist()])
+    away = 1.0 - least_root(alpha)
+    slope = 8.0 * alpha * away * z / (1.0 - away * z * z) ** 5  # dmu/dz
+    mu, made = cosine_at(1.0 - 2.0 * z * z, alpha), table(alpha, 1.0)
+    missing = np.array([lost(m, made) for m in mu.tolist()])
     return float(np.sum(weights * mu * slope * missing))
 
 

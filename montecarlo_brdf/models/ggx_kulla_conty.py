@@ -40,7 +40,7 @@ lobe = ("half vector", lambda p: p.alpha)
 def prepare(p: Params) -> Table:
     """The table of 1 - E and the factor of the second term."""
     made = table(p.alpha, p.f0)
-    average = average_lost(made)
+    average = average_lost(p.alpha)
     fresnel = p.f0 + (1.0 - p.f0) / 21.0
     colour = fresnel * fresnel * (1.0 - average) / (1.0 - fresnel * average)
     return made._replace(factor=colour / (math.pi * average))
