@@ -22,7 +22,7 @@ FEWEST = 1000.0
 LARGEST_SHARE = 0.02
 #: Deviations below this, relative to the mean, are not looked at: rounding is of their order.
 SMALLEST = 1e-6
-#: cos^c/pdf: f cos / pdf at the mirror direction is f times this
+#: mu^c/pdf for these densities
 SCALE = {"uniform": 6.283185307179586, "cosine": 3.141592653589793}
 #: c in pdf ~ mu^c near the horizon
 DENSITY = {"uniform": 0.0, "cosine": 1.0}
@@ -44,14 +44,18 @@ class Sight(NamedTuple):
     """What is known about a case before it is sampled."""
 
     highest: float  # largest f found where a lobe may be, 1/sr
+    brightest: float  # the same of f cos
     exponent: float  # s in f ~ mu_i^-s near the horizon
+
+    def largest(self, sampler: str) -> float:
+        """The largest f cos/pdf to be expected."""
+        return SCALE[sampler] * (self.highest if DENSITY[sampler] else self.brightest)
 
 
 def look(model: Model, ready: Any, fixed: Vec) -> Sight:
     """Probe f around the mirror direction and at the horizon."""
-    return Sight(
-        probe.highest(model, ready, fixed), probe.horizon_exponent(model, ready, fixed)
-    )
+    exponent = probe.horizon_exponent(model, ready, fixed)
+    return Sight(*probe.highest(model, ready, fixed), exponent)
 
 
 def moment_is_finite(moment: int, sampler: str, exponent: float) -> bool:
@@ -77,7 +81,7 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
     if not moment_is_finite(4, sampler, sight.exponent):
         useless = "its error bar can not be trusted"
         return _unfit(f"infinite fourth moment under {sampler} sampling: {useless}", math.inf)
-    expected = sight.highest * SCALE[sampler]
+    expected = sight.largest(sampler)
     if expected > LARGEST_SHARE * e.samples * e.mean:
         need = expected / (LARGEST_SHARE * e.mean)
         return _unfit(f"a lobe that {sampler} sampling hardly hits", need)

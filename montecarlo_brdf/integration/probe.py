@@ -84,14 +84,16 @@ def returns_weight(model: Model) -> bool:
     return len(_drawn(model, ready)) == 4
 
 
-def highest(model: Model, ready: Any, wo: Vec) -> float:
-    """The largest f at the mirror direction, at wo, and 64 directions in the plane of incidence.
+def highest(model: Model, ready: Any, wo: Vec) -> tuple[float, float]:
+    """The largest f and the largest f cos at the mirror direction, at wo, and 64 directions in the
+    plane of incidence.
 
     An estimate whose total weight is not well above this value may have missed a lobe.
     """
     around = [from_degrees(89.5 * k / 32.0, 180.0 * half) for k in range(32) for half in (0, 1)]
-    found = [_value(model, wo, wi, ready) for wi in (mirrored(wo), wo, *around)]
-    return max((v for v in found if math.isfinite(v)), default=0.0)
+    values = [(_value(model, wo, wi, ready), wi[2]) for wi in (mirrored(wo), wo, *around)]
+    found = [(v, v * mu) for v, mu in values if math.isfinite(v)]
+    return max((v for v, _ in found), default=0.0), max((v for _, v in found), default=0.0)
 
 
 def horizon_exponent(model: Model, ready: Any, wo: Vec) -> float:

@@ -168,7 +168,7 @@ def reason_unfit(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> str | 
     sky = skies.FUNCTIONS[type(shape)]
     at = mirrored(wo)
     density = sky.pdf(at, shape) if work.method == "sky" and sky.pdf else at[2] / math.pi
-    highest = probe.highest(work.model, work.model.prepared(p), wo)
+    highest, _ = probe.highest(work.model, work.model.prepared(p), wo)
     expected = highest * sky.radiance(at, shape) * at[2] / density if density else 0.0
     if expected > LARGEST_SHARE * e.samples * e.mean:
         return f"a lobe that {work.method} sampling hardly hits"
