@@ -52,6 +52,7 @@ WORKLOADS = (
     Workload("W4", "ggx", {"alpha": 0.05}, 80.0),
     Workload("W5", "ggx", {"alpha": 0.01}, 85.0),
     Workload("W6", "phong", {"n": 1e5}, 75.0),
+    Workload("W7", "ggx", {"alpha": 0.001}, 89.0),
 )
 
 

@@ -18,8 +18,8 @@ Examples:
 
 @click.command("bench", epilog=EPILOG, short_help="Run time against error, peers side by side.")
 @click.option("--workload", default="all", show_default=True, metavar="NAMES",
-              help="all, or some of W1 to W6: Lambert, Oren-Nayar, GGX 0.3/60, 0.05/80, 0.01/85, "
-              "Phong 1e5/75. [--workload W3]")  # fmt: skip
+              help="all, or some of W1 to W7: Lambert, Oren-Nayar, GGX 0.3/60, 0.05/80, 0.01/85, "
+              "Phong 1e5/75, GGX 0.001/89. [--workload W3]")  # fmt: skip
 @click.option("--method", default="all", show_default=True, metavar="NAMES",
               help="all that are installed, or some by name. "
               "[--method brdf-check,dblquad]")  # fmt: skip
