@@ -78,5 +78,6 @@ def sample(wo: Vec, u: Vec, p: Params) -> Vec:
 
 
 def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """Half of (n+1)/(2 pi) |r.v|^n."""
-    return 0.5 * (mirror_power_pdf(wo, wi, p.n) + mirror_power_pdf(wo, _opposite(wi), p.n))
+    """Half of (n+1)/(2 pi) |r.v|^n, in either of whose lobes r.v = 0 has |r.v|^0 = 1."""
+    both = mirror_power_pdf(wo, wi, p.n) + mirror_power_pdf(wo, _opposite(wi), p.n)
+    return 0.5 * (1.0 / (2.0 * math.pi) if p.n == 0.0 and both == 0.0 else both)

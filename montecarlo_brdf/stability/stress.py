@@ -20,6 +20,7 @@ EXACT_WORST, EXACT_EVERY = 4, 499
 #: Points per parameter set of a type whose only truth is 50 digits, and with `quick`.
 MOST_EXACT, FEW_EXACT = 60, 20
 CLIMBS, ROUNDS = 6, 12
+FEW_CLIMBS, FEW_ROUNDS = 2, 4
 KINDS = ("nan", "inf", "negative", "flushed")
 
 
@@ -147,10 +148,12 @@ def _climb_from(
 ) -> None:
     rng = np.random.default_rng(7)
     ranked = sorted(candidates, key=lambda c: c[0].own, reverse=True)
-    for found, peers in ranked[: 2 if quick else CLIMBS]:
+    few = quick or wide.arithmetic is exact()  # every step costs 50 digits
+    rounds = FEW_ROUNDS if quick else ROUNDS
+    for found, peers in ranked[: FEW_CLIMBS if few else CLIMBS]:
         if np.isfinite(found.own):
-            result.points += (4 if quick else ROUNDS) * climb.NEIGHBOURS
-            _keep(result, climb.climb(narrow, wide, found, peers, 4 if quick else ROUNDS, rng))
+            result.points += rounds * climb.NEIGHBOURS
+            _keep(result, climb.climb(narrow, wide, found, peers, rounds, rng))
 
 
 def _safe(result: Outcome, model: Model) -> tuple[str, float] | None:
