@@ -19,7 +19,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import replicates
 from environment import describe
-from false_alarms import subject
 from scipy import stats
 
 import montecarlo_brdf as mb
@@ -27,6 +26,7 @@ from montecarlo_brdf.checks import fitness, truth
 from montecarlo_brdf.integration.evaluate import estimates
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.samplers import integrand, integrand_name, query
+from montecarlo_brdf.integration.subject import subject_of
 from montecarlo_brdf.report.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
 from montecarlo_brdf.vectors import from_degrees
 
@@ -78,7 +78,7 @@ def asked(name: str, parameters: dict[str, float], theta: float, sampler: str) -
     assert known
     function = integrand(integrand_name(model, "albedo", sampler))
     wo = query(model, one, from_degrees(theta))
-    q = replicates.Question(subject(model, one), wo, [function], ("coverage", sampler))
+    q = replicates.Question(subject_of(model, one), wo, [function], ("coverage", sampler))
     return Asked(model, one, theta, sampler, q, known.value, known.error)
 
 
