@@ -133,10 +133,10 @@ def resolves() -> Iterator[str]:
     short = sum(not r["holds"] for r in study["findings"])
     if short:
         yield (
-            f"{short} of {len(rows)} fall short, all of them decided by the model's own draws: "
-            "`resolves` is what the look refutes, and the confirmation, whose jittered points are "
-            "less precise than a net there, cannot tell a deviation a few per cent beyond the "
-            "tolerance from one within it. Such a finding is inconclusive; none passes.\n"
+            f"{short} of {len(rows)} fall short: `resolves` is what the look refutes, and the "
+            "confirmation's jittered points are less precise than a net where that converges fast "
+            "(mostly the model's own draws). They cannot tell a deviation of that size from one "
+            "within the tolerance, and the finding is inconclusive instead of a failure.\n"
         )
 
 
