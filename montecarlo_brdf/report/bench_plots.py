@@ -31,10 +31,12 @@ def bench_figure(data: dict[str, Any]) -> Any:
     panels = figure.subplots(rows, columns, sharey=True, sharex=True, squeeze=False)
     for axes, result in zip(panels.flat, results, strict=False):
         _panel(axes, result)
-    for axes in list(panels.flat)[len(results) :]:
+    shown = len(results)
+    for axes in list(panels.flat)[shown:]:
         axes.set_visible(False)
-    for axes in panels[-1]:
+    for axes in list(panels.flat)[max(0, shown - columns) : shown]:  # the lowest of each column
         axes.set_xlabel("processor time (s)")
+        axes.tick_params(labelbottom=True)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
     known: dict[str, Any] = {}
