@@ -32,7 +32,11 @@ class Task:
     done: bool = False
     slow: str = ""  # why the model could not even be evaluated once
     waiting: bool = False  # for the model to return from its first evaluations
-    share: float = 0.0  # of the work, for progress
+
+    @property
+    def share(self) -> float:
+        """How much of it is done, for progress."""
+        return 1.0 if self.done else 0.5 if self.findings else 0.0
 
     def result(self, why: str) -> Result:
         """The findings; if it is not done one more is inconclusive, never forgotten."""
@@ -123,7 +127,6 @@ def fill(task: Task, plan: Plan, deadline: Deadline, tell: Callable[[], None]) -
         if finding.verdict not in ("pass", "skipped"):
             finding = replace(finding, reproduce=reproduction(case, task.check, plan))
         task.findings.append(finding)
-        task.share = 0.5
         tell()
-    task.done, task.share = True, 1.0
+    task.done = True
     tell()
