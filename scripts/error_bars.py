@@ -136,7 +136,7 @@ def dishonest(a: Asked, points: str, each: int, flaw: str, runs: int) -> dict[st
 
 
 def confirmation(a: Asked, each: int, runs: int) -> dict[str, float]:
-    """Coverage of what must agree before anything fails: 64 replicates of jittered points."""
+    """Coverage of what must agree before anything fails: 64 fresh scrambles of Sobol's points."""
     many = CONFIRMING_REPLICATES
     rows = replicates.means(a.question, CONFIRMING_POINTS, runs // 4 * many, each=each)[0]
     mean, error = replicates.estimates(rows, many, each)

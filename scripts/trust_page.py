@@ -59,8 +59,8 @@ def false_alarms() -> Iterator[str]:
         "Sixteen shifts of a lattice can have heavier tails than Student's t where one of its "
         "modes dominates: their p-values alone would refute too often. No verdict rests on them "
         "alone: "
-        "`run` looks at Sobol points, and nothing fails that 64 replicates of jittered points do "
-        "not refute again (`confirmations`).\n"
+        "`run` looks at Sobol points, and nothing fails that 64 fresh scrambles do not refute "
+        "again (`confirmations`).\n"
     )
 
 
@@ -100,7 +100,7 @@ def error_bars() -> Iterator[str]:
     yield (
         "Where a bare spread is not honest, and what becomes of it. `bare` is the coverage of the "
         "95 % and 99.99 % interval from the spread alone, `reported` that of the error bar in the "
-        "report, `confirmed` that of the 64 jittered replicates without which nothing fails.\n"
+        "report, `confirmed` that of the 64 scrambles without which nothing fails.\n"
     )
     rows = []
     for r in study["dishonest"]:
@@ -132,12 +132,7 @@ def resolves() -> Iterator[str]:
     yield from table("model | finding | tolerance | resolves | by ± resolves | by ± half", rows)
     short = sum(not r["holds"] for r in study["findings"])
     if short:
-        yield (
-            f"{short} of {len(rows)} fall short: `resolves` is what the look refutes, and the "
-            "confirmation's jittered points are less precise than a net where that converges fast "
-            "(mostly the model's own draws). They cannot tell a deviation of that size from one "
-            "within the tolerance, and the finding is inconclusive instead of a failure.\n"
-        )
+        yield f"{short} of {len(rows)} fall short.\n"
 
 
 def power() -> Iterator[str]:

@@ -1,8 +1,8 @@
 """Judging means: looks at growing sample sizes until a claim is decided, a refutation confirmed.
 
 Looks quadruple the samples; look k may spend 2^-k of the level, so that looking often does not
-raise the false-alarm rate. A refutation counts only when a fresh stream of another point set, with
-more samples in more replicates, refutes it again.
+raise the false-alarm rate. A refutation counts only when fresh randomisations, more of them and
+with more samples, refute it again.
 """
 
 from __future__ import annotations
@@ -26,9 +26,10 @@ from montecarlo_brdf.report.opinions import (
 )
 
 CONFIRMING_REPLICATES = 64
-#: Jittered points: sums of independent terms, whose tails are those of Student's t where a net of
-#: few scrambles may have others, and still far more precise than independent ones.
-CONFIRMING_POINTS = "stratified"
+#: As precise as the look, so that what it resolved can be confirmed, and independent of it, so that
+#: the probabilities of both being wrong multiply. Lattices are not asked: where one mode dominates,
+#: the tails of few shifts are not those of Student's t.
+CONFIRMING_POINTS = "sobol"
 
 
 def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
@@ -47,12 +48,12 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
 
 
 def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: list[Opinion]) -> list[Opinion]:
-    """The opinions, a refutation being inconclusive unless the same estimator refutes again, on a
-    fresh stream of another point set with more replicates."""
+    """The opinions, a refutation being inconclusive unless the same estimator refutes again, by
+    fresh and more randomisations."""
     if overall(opinions) != "fail":
         return opinions
     fresh = plan._replace(
-        points=CONFIRMING_POINTS if plan.points != CONFIRMING_POINTS else "independent",
+        points=CONFIRMING_POINTS,
         replicates=CONFIRMING_REPLICATES,
         samples=GROWTH * plan.samples,
         seed=plan.seed + FRESH,

@@ -12,6 +12,8 @@ from montecarlo_brdf.report.looks import beyond
 
 #: how often a deviation of the size `resolves` may escape
 ESCAPES = 0.05
+#: how often the spread of another run may exceed what `resolves` allows for
+LUCK = 1e-3
 #: an error falls like samples^-FASTEST at best: that of good points for a narrow lobe
 FASTEST = 1.0
 #: standard errors that the truth is from an estimate at most, where that only saves work
@@ -118,9 +120,17 @@ def telling(opinions: list[Opinion]) -> Opinion:
 
 
 def resolves(claim: MeanClaim, opinion: Opinion) -> float:
-    """The deviation that a FAIL at this look would have caught with probability 95 %."""
+    """The deviation that a run like this fails with probability 95 % at least.
+
+    Another seed has another spread, and this one may be small by chance. So the ratio of two
+    spreads counts, the root of an F(dof, dof), whose quantiles are those of Student's t:
+    Cacoullos 1965, "A relation between t and F-distributions", t = sinh(log(ratio)) sqrt(dof).
+    """
     e = opinion.measurement.estimate
-    known = claim.tolerance + opinion.half_width + (claim.expected.error if claim.expected else 0.0)
+    known = claim.tolerance + (claim.expected.error if claim.expected else 0.0)
     if opinion.measurement.bound is not None:
-        return known
-    return known + student.quantile(ESCAPES, e.dof) * e.stderr if e.dof > 0 else math.inf
+        return known + opinion.half_width
+    if e.dof < 1:
+        return math.inf
+    wider = math.exp(math.asinh(student.quantile(LUCK, e.dof) / math.sqrt(e.dof)))
+    return known + wider * (opinion.half_width + student.quantile(ESCAPES, e.dof) * e.stderr)
