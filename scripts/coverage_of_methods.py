@@ -1,17 +1,22 @@
 """Are the error bars of charts and methods honest? Coverage over 1,000 seeds, case by case.
 
 For every built-in model, verified parameter set, angle and method that "auto" would try: how often
-the 95 % interval of 16 replicates holds the reference at 256, 1,024 and 4,096 samples, unless the
-probe declares the method unfit there; and how often an adaptive estimate ends within its target.
+the 95 % interval of 16 replicates holds the reference at 256 to 16,384 samples, unless the
+tool declares the method unfit there; and how often an adaptive estimate ends within its target.
 A coverage is too low when 1,000 honest seeds would show it with a chance below 1e-6.
 
+Slow adaptive estimates are asked less often: a case may take some seconds.
+
     python scripts/coverage_of_methods.py [SEEDS]
+
+Resumable: models that scripts/results/coverage_of_methods.json holds are not asked again.
 """
 from __future__ import annotations
 
 import json
 import math
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,21 +24,25 @@ from typing import Any
 from environment import describe
 
 import montecarlo_brdf as mb
-from montecarlo_brdf import loading, references, student
+from montecarlo_brdf import loading, references
+from montecarlo_brdf.checks import fitness
+from montecarlo_brdf.checks.fitness import reason_unfit
 from montecarlo_brdf.integration import methods, work
 from montecarlo_brdf.integration.ascent import Ascent
 from montecarlo_brdf.integration.compiled import compiled
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.sampling.points import NONE, SHAPES
-from montecarlo_brdf.statistics import FLOOR
+from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import from_degrees
 
 RESULTS = Path(__file__).parent / "results" / "coverage_of_methods.json"
 REPLICATES = 16
-SIZES = (16, 64, 256)  # samples of a replicate
+SIZES = (16, 64, 256, 1024)  # samples of a replicate
 ANGLES = (0.0, 60.0, 85.0)
 TARGET = 1e-6
-QUANTILE = student.quantile(0.025, REPLICATES - 1)
+#: processor seconds that the adaptive estimates of a case may take, and how many are made anyway
+PATIENCE = 5.0
+FEWEST = 20
 
 
 def lowest(seeds: int) -> float:
@@ -41,34 +50,36 @@ def lowest(seeds: int) -> float:
     return 0.95 - 4.75 * math.sqrt(0.95 * 0.05 / seeds)
 
 
-def cases() -> Iterator[tuple[Any, Any, float]]:
-    """Every model, verified parameter set and angle."""
-    for name in loading.names():
-        model = mb.load(name)
-        for p in model.verified or (model.parameters(),):
-            for theta in ANGLES:
-                yield model, model.parameters(**p._asdict()), theta
+def cases(name: str) -> Iterator[tuple[Any, Any, float]]:
+    """Every verified parameter set and angle of a model."""
+    model = mb.load(name)
+    for p in model.verified or (model.parameters(),):
+        for theta in ANGLES:
+            yield model, model.parameters(**p._asdict()), theta
 
 
-def coverage(setting: methods.Setting, wo: Any, truth: Any, size: int, seeds: int) -> float:
-    """The fraction of seeds whose 95 % interval, 16 replicates each, holds the reference."""
+def drawn(setting: methods.Setting, wo: Any, size: int, seeds: int) -> list[Estimate]:
+    """Estimates of 16 replicates each, with the error bars that reports show."""
     points = setting.means.points
     shape = SHAPES[points](size) if points in SHAPES else NONE
     reals = (*wo, setting.width, *setting.numbers)
     entry = compiled(setting.model, setting.means)
-    job = work.Job(entry, reals, 1, size, REPLICATES * seeds, size, shape)
-    means = [moments.mean for moments in work.run(job)[0]]
-    return sum(
-        holds(means[i : i + REPLICATES], truth) for i in range(0, len(means), REPLICATES)
-    ) / seeds
+    rows = work.run(work.Job(entry, reals, 1, size, REPLICATES * seeds, size, shape))[0]
+    return [estimate(rows[i : i + REPLICATES]) for i in range(0, len(rows), REPLICATES)]
 
 
-def holds(means: list[float], truth: Any) -> bool:
-    """Whether the interval of some replicates holds the truth, whose own error is allowed for."""
-    mean = math.fsum(means) / REPLICATES
-    spread = math.fsum([(m - mean) ** 2 for m in means])
-    bar = max(math.sqrt(spread / (REPLICATES * (REPLICATES - 1))), FLOOR * abs(mean))
-    return abs(mean - truth.value) <= QUANTILE * bar + truth.error
+def coverage(
+    setting: methods.Setting, sight: Any, wo: Any, truth: Any, size: int, seeds: int
+) -> float | str:
+    """The fraction of seeds whose 95 % interval holds the reference, whose own error is allowed
+    for; or why the method is not used: a probe demands more, or the judge of samplers does."""
+    demanded = need(setting, wo)
+    if demanded > size:
+        return f"unfit: a probe demands {demanded:.0f}"
+    found, sampler = drawn(setting, wo, size, seeds), setting.method.sampler
+    if sampler in ("own", "cosine") and (why := reason_unfit(sampler, found[0], sight, None)):
+        return f"unfit: {why}"
+    return sum(abs(e.mean - truth.value) <= e.half_width(0.05) + truth.error for e in found) / seeds
 
 
 def need(setting: methods.Setting, wo: Any) -> float:
@@ -85,50 +96,77 @@ def look(model: Any, p: Any, theta: float, seeds: int) -> Iterator[dict[str, Any
     if truth is None or truth.value == 0.0:
         return
     case = {"model": model.name, "p": p._asdict(), "theta_o": theta}
+    sight = fitness.look(variant, variant.prepared(p), wo)
     for method in methods.methods(variant):
         setting = methods.prepare(variant, p, type(p), method)
-        demanded = need(setting, wo)
         found = {
-            REPLICATES * n: coverage(setting, wo, truth, n, seeds) if demanded <= n else "unfit"
-            for n in SIZES
+            REPLICATES * n: coverage(setting, sight, wo, truth, n, seeds) for n in SIZES
         }
         name = f"{method.sampler} x {method.points}"
         yield {**case, "method": name, "probed": setting.probed, "coverage": found}
+    yield {**case, "method": "adaptive", **ends(model, p, theta, truth, seeds)}
+
+
+def ends(model: Any, p: Any, theta: float, truth: Any, seeds: int) -> dict[str, int]:
+    """How many adaptive estimates were asked, reached their target, and were within it."""
     slack = TARGET * truth.value + truth.error
-    ended = [
-        abs(e.mean - truth.value) <= slack
-        for s in range(seeds)
-        if "only reached"
-        not in (e := mb.directional_albedo(model, p, theta, target_error=TARGET, seed=s)).method
-        if e.stderr <= TARGET * truth.value
-    ]
-    yield {**case, "method": "adaptive", "within": sum(ended), "ended": len(ended)}
+    asked, ended, within, began = 0, 0, 0, time.process_time()
+    while asked < seeds and (asked < FEWEST or time.process_time() - began < PATIENCE):
+        e = mb.directional_albedo(model, p, theta, target_error=TARGET, seed=asked)
+        reached = "only reached" not in e.method and e.stderr <= TARGET * truth.value
+        asked, ended = asked + 1, ended + reached
+        within += reached and abs(e.mean - truth.value) <= slack
+    return {"asked": asked, "ended": ended, "within": within}
 
 
-def failures(rows: list[dict[str, Any]], seeds: int) -> list[dict[str, Any]]:
-    """Rows whose error bar is too small, or whose adaptive estimates miss too often."""
+def is_low(row: dict[str, Any], seeds: int) -> bool:
+    """Whether an error bar is too small, or adaptive estimates miss too often."""
     low = lowest(seeds)
-    return [
-        row
-        for row in rows
-        if any(c != "unfit" and c < low for c in row.get("coverage", {}).values())
+    return (
+        any(isinstance(c, float) and c < low for c in row.get("coverage", {}).values())
         or row.get("within", 0) < 0.985 * row.get("ended", 0)
-    ]
+    )
+
+
+def rows_of(name: str, seeds: int) -> list[dict[str, Any]]:
+    """All rows of a model."""
+    rows: list[dict[str, Any]] = []
+    for model, p, theta in cases(name):
+        rows += look(model, p, theta, seeds)
+    return rows
+
+
+def recorded(seeds: int) -> dict[str, Any]:
+    """Rows per model of an earlier run with as many seeds."""
+    found = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
+    return found["cases"] if found.get("seeds") == seeds else {}
+
+
+def record(done: dict[str, list[dict[str, Any]]], seeds: int) -> None:
+    """Write what there is."""
+    rows = [row for found in done.values() for row in found]
+    summary = {
+        "seeds": seeds,
+        "lowest allowed": lowest(seeds),
+        "rows": len(rows),
+        "adaptive asked": sum(r.get("asked", 0) for r in rows),
+        "adaptive ended": sum(r.get("ended", 0) for r in rows),
+        "adaptive within": sum(r.get("within", 0) for r in rows),
+        "low": [row for row in rows if is_low(row, seeds)],
+    }
+    RESULTS.write_text(json.dumps({**describe(), **summary, "cases": done}, indent=1))
 
 
 def main() -> None:
-    """Look at all cases and record them."""
+    """Look at all cases, model by model, and record them."""
     seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
-    rows: list[dict[str, Any]] = []
-    for model, p, theta in cases():
-        for row in look(model, p, theta, seeds):
-            rows.append(row)
-            if failures([row], seeds):
-                print("LOW", row, flush=True)
-    bad = failures(rows, seeds)
-    summary = {"seeds": seeds, "lowest allowed": lowest(seeds), "rows": len(rows), "low": bad}
-    RESULTS.write_text(json.dumps({**describe(), **summary, "cases": rows}, indent=1))
-    print(len(rows), "rows,", len(bad), "low")
+    done = recorded(seeds)
+    for name in loading.names():
+        if name not in done:
+            done[name] = rows_of(name, seeds)
+            record(done, seeds)
+            low = [row for row in done[name] if is_low(row, seeds)]
+            print(name, len(done[name]), "rows, low:", low, flush=True)
 
 
 if __name__ == "__main__":

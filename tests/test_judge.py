@@ -16,7 +16,7 @@ from montecarlo_brdf.report.findings import Finding, Report, Result, worst
 from montecarlo_brdf.report.judge import LEVEL, decide
 from montecarlo_brdf.report.looks import FIRST_LOOK, GROWTH, looks
 from montecarlo_brdf.report.mean import CONFIRMING_REPLICATES
-from montecarlo_brdf.report.opinions import Opinion, judged
+from montecarlo_brdf.report.opinions import LUCK, Opinion, judged
 from montecarlo_brdf.statistics import Estimate
 
 PLAN = Plan(samples=1 << 20)
@@ -212,17 +212,18 @@ def test_the_level_is_shared_by_the_estimators() -> None:
     assert alone == among_three
 
 
-def test_resolves_is_a_deviation_that_would_have_failed() -> None:
-    wider = math.sqrt(stats.f.isf(1e-3, 15, 15))  # the spread of one run over that of another
+def test_resolves_is_a_deviation_that_the_last_look_would_have_failed() -> None:
+    wider = math.sqrt(stats.f.isf(LUCK, 15, 15))  # the spread of one run over that of another
     for error in (1e-6, 1e-5):
         finding = decide(claim(steady(1.0, error)), PLAN)
         assert finding.resolves is not None and finding.resolves > 1e-3
         spread = wider * error
-        shifted = student.quantile(0.05, 15) * spread  # what 5 % of all runs exceed
+        last = spread * math.sqrt(FIRST_LOOK / PLAN.samples)
+        shifted = student.quantile(0.05, 15) * last  # what 5 % of all runs exceed
         for share, verdict in ((0.999, "fail"), (1.001, "inconclusive")):
-            m = steady(1.0 + finding.resolves - share * shifted, spread)
-            looked = m(PLAN._replace(samples=FIRST_LOOK))
-            assert judged(claim(steady(1, 1)), looked, LEVEL / 2.0)[0].verdict == verdict
+            m = steady(1.0 + finding.resolves - share * shifted, spread)(PLAN)
+            level = LEVEL * 2.0 ** -len(looks(PLAN.samples))
+            assert judged(claim(steady(1, 1)), m, level)[0].verdict == verdict
 
 
 def report(*verdicts: str) -> Report:

@@ -13,7 +13,7 @@ from montecarlo_brdf.report.looks import beyond
 #: how often a deviation of the size `resolves` may escape
 ESCAPES = 0.05
 #: how often the spread of another run may exceed what `resolves` allows for
-LUCK = 1e-3
+LUCK = 3e-3
 #: an error falls like samples^-FASTEST at best: that of good points for a narrow lobe
 FASTEST = 1.0
 #: standard errors that the truth is from an estimate at most, where that only saves work
@@ -119,11 +119,13 @@ def telling(opinions: list[Opinion]) -> Opinion:
     return min(opinions, key=rank)
 
 
-def resolves(claim: MeanClaim, opinion: Opinion) -> float:
+def resolves(claim: MeanClaim, opinion: Opinion, level: float, most: int) -> float:
     """The deviation that a run like this fails with probability 95 % at least.
 
-    Another seed has another spread, and this one may be small by chance. So the ratio of two
-    spreads counts, the root of an F(dof, dof), whose quantiles are those of Student's t:
+    Nothing that deviates by more than the tolerance passes at any look, so the last one, of `most`
+    samples and with `level` for this estimator, decides: its error is smaller at least like
+    samples^-1/2. Another seed has another spread, and this one may be small by chance. So the ratio
+    of two spreads counts, the root of an F(dof, dof), whose quantiles are those of Student's t:
     Cacoullos 1965, "A relation between t and F-distributions", t = sinh(log(ratio)) sqrt(dof).
     """
     e = opinion.measurement.estimate
@@ -133,4 +135,5 @@ def resolves(claim: MeanClaim, opinion: Opinion) -> float:
     if e.dof < 1:
         return math.inf
     wider = math.exp(math.asinh(student.quantile(LUCK, e.dof) / math.sqrt(e.dof)))
-    return known + wider * (opinion.half_width + student.quantile(ESCAPES, e.dof) * e.stderr)
+    half = opinion.measurement.half_width(level) + student.quantile(ESCAPES, e.dof) * e.stderr
+    return known + wider * half * math.sqrt(min(1.0, e.samples / most))
