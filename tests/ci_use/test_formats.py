@@ -91,6 +91,16 @@ def test_junit_counts_and_names() -> None:
     assert "1.0500(10)" in str(failure.get("message")) and "f: my,brdf.py:7" in str(failure.text)
 
 
+def test_junit_calls_a_worst_case_the_same_wherever_it_was_found() -> None:
+    def names(*angles: float) -> list[str | None]:
+        found = [Finding("A", {"theta_o_deg": a}, "pass") for a in angles]
+        suite = junit(Report("run", {}, [Result("m", {}, "c", found)]))[0]
+        return [test.get("name") for test in suite.iter("testcase")]
+
+    assert names(12.5) == names(80.0) == ["A"]
+    assert names(0.0, 45.0) == ["A theta_o 0°", "A theta_o 45°"]
+
+
 @pytest.mark.parametrize(("policy", "tag"), [("pass", "skipped"), ("fail", "failure")])
 def test_junit_follows_the_policy_for_inconclusive(policy: str, tag: str) -> None:
     tests = junit(report(inconclusive=policy)).iter("testcase")

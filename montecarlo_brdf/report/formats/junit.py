@@ -56,11 +56,16 @@ def _suite(
 
 
 def _titles(result: Result) -> list[str]:
-    """A name for every finding, and no name twice: readers merge cases of equal names."""
+    """A name for every finding, and no name twice: readers merge cases of equal names.
+
+    They follow a case by its name from run to run, so the place is in it only where it tells
+    findings of a quantity apart: that of a worst case is another one after any change.
+    """
+    alike = Counter(f.quantity for f in result.findings)
     seen: Counter[str] = Counter()
     titles = []
     for f in result.findings:
-        title = " ".join(filter(None, (f.quantity, place(f))))
+        title = " ".join(filter(None, (f.quantity, place(f) if alike[f.quantity] > 1 else "")))
         seen[title] += 1
         titles.append(_legal(title if seen[title] == 1 else f"{title} ({seen[title]})"))
     return titles
