@@ -5,6 +5,8 @@ in 1,000 then have probability 1e-7.
 """
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 import montecarlo_brdf as mb
@@ -141,3 +143,13 @@ def test_results_do_not_depend_on_how_often_a_kernel_is_called():
         singly.look(stop)
     assert at_once.errors == singly.errors and at_once.states == singly.states
     assert len(at_once.errors) == 3 and at_once.size == singly.size == 1024
+
+
+@pytest.mark.parametrize("albedo", [mb.directional_albedo, mb.reverse_albedo])
+def test_what_is_no_model_or_no_parameter_set_is_refused_in_a_sentence(albedo: Any) -> None:
+    model = mb.load("ggx")
+    with pytest.raises(UserError, match=r"as load\('ggx'\) gives it"):
+        albedo("ggx", model.parameters(), 60.0)
+    for wrong in (None, {"alpha": 0.3}, 0.3, (0.3, 1.0)):
+        with pytest.raises(UserError, match="p must be what model.parameters"):
+            albedo(model, wrong, 60.0)

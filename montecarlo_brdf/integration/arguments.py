@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.model import Model
 
 MOST_SAMPLES = 1 << 40
 
@@ -19,6 +20,14 @@ def check_samples(samples: Any) -> int:
     ):
         raise UserError(f"samples must be a whole number from 1 to 2^40, not {samples}")
     return samples
+
+
+def check_subject(model: Any, p: Any) -> None:
+    """Raise UserError unless these are a model and a parameter set of such."""
+    if not isinstance(model, Model):
+        raise UserError(f"model must be a Model, as load({model!r}) gives it, not {model!r}")
+    if not (isinstance(p, tuple) and hasattr(p, "_fields")):
+        raise UserError(f"p must be what model.parameters(...) gives, not {p!r}")
 
 
 def check_theta(theta_deg: Any, name: str = "theta_o_deg") -> float:

@@ -7,7 +7,7 @@ from typing import Any
 
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.integration import adaptive, integrands
-from montecarlo_brdf.integration.arguments import check_theta
+from montecarlo_brdf.integration.arguments import check_subject, check_theta
 from montecarlo_brdf.integration.evaluate import estimates, evaluate
 from montecarlo_brdf.integration.plan import REPLICATES, Plan
 from montecarlo_brdf.integration.samplers import SAMPLERS, charts_of, integrand_name, samplers_of
@@ -47,6 +47,7 @@ def directional_albedo(
     if isinstance(p, list) or isinstance(theta_o_deg, (list, tuple)):
         rest = {k: v for k, v in locals().items() if k not in ("model", "p", "theta_o_deg")}
         return _each(directional_albedo, model, p, theta_o_deg, rest)
+    check_subject(model, p)
     chosen = method or ("given" if target_error is None else "auto")
     plan = Plan(points, samples, replicates, seed, threads, None, target_error, chosen)
     wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
@@ -81,6 +82,7 @@ def reverse_albedo(
     This is what energy conservation bounds by 1; it equals A only if f is reciprocal. Arguments and
     result as for `directional_albedo`.
     """
+    check_subject(model, p)
     plan = Plan(points, samples, replicates, seed, threads)
     wi = from_degrees(check_theta(theta_i_deg, "theta_i_deg"), phi_i_deg)
     return _one(model, p, "reverse", wi, sampler, plan)
@@ -98,6 +100,7 @@ def bihemispherical_albedo(
     threads: int = 1,
 ) -> Any:
     """Radiosity over irradiance under uniform light, 2 int A(mu) mu dmu, between 0 and 1."""
+    check_subject(model, p)
     plan = Plan(points, samples, replicates, seed, threads)
     return _one(model, p, "bihemispherical", (0.0, 0.0, 1.0), sampler, plan)
 
