@@ -9,11 +9,12 @@ from typing import NamedTuple
 from montecarlo_brdf import student
 from montecarlo_brdf.checks.claim import MeanClaim, Measurement, Reference
 from montecarlo_brdf.report.looks import beyond
+from montecarlo_brdf.statistics import FLOOR
 
 #: how often a deviation of the size `resolves` may escape
 ESCAPES = 0.05
 #: how often the spread of another run may exceed what `resolves` allows for
-LUCK = 3e-3
+LUCK = 5e-3
 #: an error falls like samples^-FASTEST at best: that of good points for a narrow lobe
 FASTEST = 1.0
 #: standard errors that the truth is from an estimate at most, where that only saves work
@@ -124,9 +125,10 @@ def resolves(claim: MeanClaim, opinion: Opinion, level: float, most: int) -> flo
 
     Nothing that deviates by more than the tolerance passes at any look, so the last one, of `most`
     samples and with `level` for this estimator, decides: its error is smaller at least like
-    samples^-1/2. Another seed has another spread, and this one may be small by chance. So the ratio
-    of two spreads counts, the root of an F(dof, dof), whose quantiles are those of Student's t:
-    Cacoullos 1965, "A relation between t and F-distributions", t = sinh(log(ratio)) sqrt(dof).
+    samples^-1/2, down to rounding. Another seed has another spread, and this one may be small by
+    chance. So the ratio of two spreads counts, the root of an F(dof, dof), whose quantiles are
+    those of Student's t: Cacoullos 1965, "A relation between t and F-distributions",
+    t = sinh(log(ratio)) sqrt(dof).
     """
     e = opinion.measurement.estimate
     known = claim.tolerance + (claim.expected.error if claim.expected else 0.0)
@@ -135,5 +137,6 @@ def resolves(claim: MeanClaim, opinion: Opinion, level: float, most: int) -> flo
     if e.dof < 1:
         return math.inf
     wider = math.exp(math.asinh(student.quantile(LUCK, e.dof) / math.sqrt(e.dof)))
-    half = opinion.measurement.half_width(level) + student.quantile(ESCAPES, e.dof) * e.stderr
-    return known + wider * half * math.sqrt(min(1.0, e.samples / most))
+    last = max(e.stderr * math.sqrt(min(1.0, e.samples / most)), FLOOR * abs(e.mean))
+    widths = student.quantile(level / 2.0, e.dof) + student.quantile(ESCAPES, e.dof)
+    return known + wider * widths * last
