@@ -61,7 +61,10 @@ class Estimate(NamedTuple):
 
 
 def with_error(value: float, error: float) -> str:
-    """'0.68899(76)': the digits in brackets are the standard error of the last digits shown."""
+    """'0.68899(76)': the digits in brackets are the standard error of the last digits shown; just
+    the value where nothing is known about its error."""
+    if math.isfinite(value) and math.isnan(error):
+        return f"{value:.6g}"
     if not (math.isfinite(value) and math.isfinite(error)):
         return f"{value:.6g}({error})"
     if error == 0.0:

@@ -22,6 +22,7 @@ PRINTED = [
     (3e-316, 1e-318, "0." + "0" * 315 + "3000(10)"),
     (math.nan, 1.0, "nan(1.0)"),
     (math.inf, math.nan, "inf(nan)"),
+    (0.3, math.nan, "0.3"),
 ]
 
 
