@@ -44,7 +44,7 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
             break
     if claim.fallback and overall(opinions) == "inconclusive":
         opinions += _asked_last(claim, claim.fallback, plan.seed, spent)
-    return _finding(claim, opinions, level, plan.samples, known)
+    return _finding(claim, opinions, level, (sized.samples, plan.samples), known)
 
 
 def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: list[Opinion]) -> list[Opinion]:
@@ -79,11 +79,15 @@ def _asked_last(
 
 
 def _finding(
-    claim: MeanClaim, opinions: list[Opinion], level: float, most: int, known: str | None
+    claim: MeanClaim,
+    opinions: list[Opinion],
+    level: float,
+    looked: tuple[int, int],  # samples of the last look taken, and of the last one allowed
+    known: str | None,
 ) -> Finding:
     shown, verdict = telling(opinions), overall(opinions)
     fit = sum(not o.measurement.unfit for o in opinions)
-    last = level * 2.0 ** -len(looks(most)) / max(1, fit)
+    last = level * 2.0 ** -len(looks(looked[1])) / max(1, fit)
     if verdict == "fail" and known:
         verdict = "known"
     e, expected = shown.measurement.estimate, claim.expected
@@ -97,7 +101,7 @@ def _finding(
         stderr=e.stderr,
         expected=reference.pop("value", None),
         tolerance=claim.tolerance,
-        resolves=resolves(claim, shown, last, most),
+        resolves=resolves(claim, shown, last, looked[0] / looked[1]),
         level=level,
         samples=e.samples,
         estimator=shown.measurement.estimator,

@@ -120,15 +120,15 @@ def telling(opinions: list[Opinion]) -> Opinion:
     return min(opinions, key=rank)
 
 
-def resolves(claim: MeanClaim, opinion: Opinion, level: float, most: int) -> float:
+def resolves(claim: MeanClaim, opinion: Opinion, level: float, share: float) -> float:
     """The deviation that a run like this fails with probability 95 % at least.
 
-    Nothing that deviates by more than the tolerance passes at any look, so the last one, of `most`
-    samples and with `level` for this estimator, decides: its error is smaller at least like
-    samples^-1/2, down to rounding. Another seed has another spread, and this one may be small by
-    chance. So the ratio of two spreads counts, the root of an F(dof, dof), whose quantiles are
-    those of Student's t: Cacoullos 1965, "A relation between t and F-distributions",
-    t = sinh(log(ratio)) sqrt(dof).
+    Nothing that deviates by more than the tolerance passes at any look, so the last one decides:
+    with `level` for this estimator, and with an error that is smaller at least like samples^-1/2,
+    down to rounding; this look took a `share` of its samples. Another seed has another spread, and
+    this one may be small by chance. So the ratio of two spreads counts, the root of an
+    F(dof, dof), whose quantiles are those of Student's t: Cacoullos 1965, "A relation between t
+    and F-distributions", t = sinh(log(ratio)) sqrt(dof).
     """
     e = opinion.measurement.estimate
     known = claim.tolerance + (claim.expected.error if claim.expected else 0.0)
@@ -137,6 +137,6 @@ def resolves(claim: MeanClaim, opinion: Opinion, level: float, most: int) -> flo
     if e.dof < 1:
         return math.inf
     wider = math.exp(math.asinh(student.quantile(LUCK, e.dof) / math.sqrt(e.dof)))
-    last = max(e.stderr * math.sqrt(min(1.0, e.samples / most)), FLOOR * abs(e.mean))
+    last = max(e.stderr * math.sqrt(share), FLOOR * abs(e.mean))
     widths = student.quantile(level / 2.0, e.dof) + student.quantile(ESCAPES, e.dof)
     return known + wider * widths * last
