@@ -25,7 +25,7 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks, references
-from montecarlo_brdf.checks import pdf, truth
+from montecarlo_brdf.checks import drawn, truth
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.models import ggx
@@ -75,7 +75,7 @@ def subjects() -> dict[str, tuple[Any, str, tuple[str, ...]]]:
 
 def run(model: Any, check: str, findings: tuple[str, ...], seed: int) -> str:
     """The verdict of a run: the worst of the findings, from nothing but compiled code."""
-    pdf.density_integral.cache_clear()
+    drawn.density_integral.cache_clear()
     truth.quadrature.cache_clear()
     p = model.parameters()
     case = Case(model, p, [THETA], seed=seed)

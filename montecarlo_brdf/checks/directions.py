@@ -42,16 +42,19 @@ def vectors(theta: Array, phi: Array) -> Array:
 
 
 def edge_pairs() -> tuple[Array, Array]:
-    """Every edge angle against every other at every azimuth; wi = wo, wi = mirror, wi . wo = 0."""
+    """Every edge angle against every other at every azimuth; wi = wo, wi = mirror, wi . wo = 0;
+    and every one where x is exactly 0, which no azimuth makes it."""
     to, ti, phi = (g.ravel() for g in np.meshgrid(EDGES, EDGES, AZIMUTHS, indexing="ij"))
     wo, wi = vectors(to, 0.0), vectors(ti, phi)
     each = vectors(np.array(EDGES), 0.3)
     mirror = each * MIRROR
     across = vectors(0.5 * np.pi - np.array(EDGES), 0.3 + np.pi)
     tilted = each[across[:, 2] > 0.0], across[across[:, 2] > 0.0]
+    ahead = vectors(np.array(EDGES), 0.0)
+    aside = ahead[:, [1, 0, 2]]
     return (
-        np.concatenate([wo, each, each, tilted[0]]),
-        np.concatenate([wi, each, mirror, tilted[1]]),
+        np.concatenate([wo, each, each, tilted[0], ahead, aside, aside]),
+        np.concatenate([wi, each, mirror, tilted[1], aside, ahead[::-1], aside[::-1]]),
     )
 
 

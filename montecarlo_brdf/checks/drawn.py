@@ -6,6 +6,8 @@ that a small square of u covers is 1/pdf.
 
 from __future__ import annotations
 
+import functools
+import math
 from typing import Any
 
 import numpy as np
@@ -14,6 +16,8 @@ from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Exact
 from montecarlo_brdf.checks.hints import azimuth_named, moved_named, shape_named, wider_named
+from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
+from montecarlo_brdf.checks.truth import lobe_scale, probes
 from montecarlo_brdf.integration.probe import returns_weight
 
 NAME = "pdf"  # whose streams these are
@@ -25,6 +29,9 @@ DIFFERENCES = 2048  # points that take four more draws each
 SEAMS = 0.005
 UNIT_TOLERANCE = 1e-6
 JACOBIAN_TOLERANCE = 3e-3
+#: standard errors and excess of a mass by which a direction surely belongs to several draws; what
+#: pdf times Jacobian counts for at most, as a few large values tell nothing about a mean
+SURE, EXCESS, CLIPPED = 5.0, 0.02, 4.0
 
 
 def values(case: Case, _: Any) -> Exact:
@@ -56,12 +63,23 @@ def chooses(case: Case, theta: float) -> bool:
     return not np.allclose(w, again, rtol=0.0, atol=1e-12, equal_nan=True)
 
 
+@functools.lru_cache(maxsize=128)
+def density_integral(case_model: Any, one: Any, wo: Any) -> Any:
+    """int pdf over the hemisphere, by quadrature."""
+    direction = np.array(wo)
+    coordinates = Coordinates(direction, lobe_scale(case_model, one, direction))
+    functions = pointwise(case_model, one)
+    seen = probes(case_model, one, wo)
+    return integrate(lambda wi: functions.pdf(direction, wi), coordinates, probes=seen)
+
+
 def faults(case: Case, theta: float) -> Exact:
     """How many draws are not finite, not of unit length, or have no density; all of them if none is
     above the horizon.
 
     Numbers exactly at an end of [0, 1) may give a direction where pdf and f are both 0, as u = 0
-    does for u^(1/(n + 1)): no light, with probability 0. It is told, not refuted.
+    does for u^(1/(n + 1)), or where pdf is infinite: no light, with probability 0. It is told, not
+    refuted.
     """
     edges = _edges()
     u = np.concatenate([edges, case.random(NAME, "edges", theta).random((POINTS, 3))])
@@ -97,15 +115,16 @@ def _kinds(case: Case, wo: Any, u: Any) -> tuple[dict[str, Any], Any]:
         bad = ~(np.isfinite(density) & (density > 0.0))
         kinds["with a pdf that is not positive and finite"] = above & bad
         dark = above & (density == 0.0) & (functions.f(wo, up) == 0.0)
+        dark |= above & np.isposinf(density)
     return kinds, dark
 
 
 def _told(u: Any) -> str | None:
-    """That f/pdf is 0/0 at some ends of [0, 1), where that is so."""
+    """That f/pdf is 0/0, or pdf infinite, at some ends of [0, 1), where that is so."""
     if not len(u):
         return None
     ends = tuple(float(v) for v in u[0])
-    return f"f/pdf is 0/0 at exactly u = {ends}: a renderer must skip draws whose pdf is 0"
+    return f"pdf is 0 as f, or infinite, at exactly u = {ends}: a renderer must skip such draws"
 
 
 def _edges() -> Any:
@@ -130,9 +149,27 @@ def jacobian(case: Case, theta: float) -> Exact:
         return Exact(0.0, points=0, note="hardly any draw lies above the horizon")
     w, area = w[above], area[above]
     ratio = functions.pdf(wo, w) * area
+    if np.median(area) == 0.0:
+        alone = "one of the two numbers changes nothing: see `sampling`"
+        return Exact(0.0, points=len(w), note=alone)
+    if _belongs_to_several(case, theta, ratio, len(u)):
+        # the pdf is the sum over all of them, so that it can only be too small for one
+        value = float(np.quantile(1.0 - ratio, 1.0 - SEAMS))
+        if value <= JACOBIAN_TOLERANCE:
+            several = "a direction belongs to several pairs of numbers: see `sampling`"
+            return Exact(max(0.0, value), points=len(w), note=several)
     value = float(np.quantile(np.abs(ratio - 1.0), 1.0 - SEAMS))
     hint = _ratio(functions.pdf, area, wo, w) if value > JACOBIAN_TOLERANCE else None
     return Exact(value, points=len(w), hint=hint)
+
+
+def _belongs_to_several(case: Case, theta: float, ratio: Any, drawn: int) -> bool:
+    """Whether directions are drawn by more than one pair of numbers each (an azimuth folded, a
+    number used twice): then pdf times Jacobian adds up to more than int pdf, whatever pdf is."""
+    found = density_integral(case.model, case.one, case.wo(theta))
+    least = np.minimum(ratio, CLIPPED)
+    spread = math.sqrt(float(np.sum((least - least.mean()) ** 2))) / drawn
+    return bool(least.sum() / drawn - SURE * spread > found.value + found.error + EXCESS)
 
 
 def _ratio(pdf: Any, area: Any, wo: Any, w: Any) -> str:
@@ -158,10 +195,11 @@ def weight(case: Case, theta: float) -> Exact:
     above = (w[:, 2] > 0.0) & np.isfinite(weight)
     expected = functions.f(wo, w[above]) * w[above][:, 2] / functions.pdf(wo, w[above])
     ratio = weight[above] / np.where(expected == 0.0, 1e-300, expected)
+    ratio = np.where((expected == 0.0) & (weight[above] == 0.0), 1.0, ratio)
     k = int(np.argmax(np.abs(ratio - 1.0)))
     named = shape_named(ratio, np.broadcast_to(wo, w[above].shape), w[above])
     hint = f"weight/(f cos/pdf) = {named or f'{float(np.median(ratio)):.6g} in the middle'}"
     whole = expected * functions.pdf(wo, w[above])
-    if np.allclose(weight[above], whole, rtol=1e-6, atol=0.0):
+    if whole.any() and np.allclose(weight[above], whole, rtol=1e-6, atol=0.0):
         hint = "the weight is f cos: it is not divided by the pdf"
     return Exact(float(abs(ratio[k] - 1.0)), points=int(above.sum()), hint=hint)

@@ -67,6 +67,7 @@ def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
     h = wo + wi
     h = h / np.sqrt(np.sum(h * h, axis=1))[:, None]
     mu_i, mu_o, mu_h = wi[:, 2], wo[:, 2], h[:, 2]
+    alone = bool(np.all(mu_o == mu_o[0]))  # one wo: its cosine is a number like any other
     dot = np.sum(wo * h, axis=1)
     shapes = {
         "": np.ones_like(ratio),
@@ -80,7 +81,7 @@ def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
     inverse = {f"/{name.strip()}": 1.0 / shape for name, shape in shapes.items() if name}
     for name, shape in {**shapes, **inverse}.items():
         quotient = ratio / shape
-        if len(quotient) < 100 or not np.median(quotient):
+        if len(quotient) < 100 or not np.median(quotient) or (alone and "cos_o" in name):
             continue
         middle = float(np.median(quotient))
         spread = np.quantile(abs(quotient / middle - 1.0), 0.98)

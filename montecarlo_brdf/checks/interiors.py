@@ -73,9 +73,11 @@ def sets_inside(case: Case) -> Iterator[Any]:
 
 
 def ends(case: Case) -> Iterator[Any]:
-    """Each free parameter exactly at either end of its range, the others as they are."""
+    """Each free parameter exactly at either end of its range, and at 0 and 1 where these lie
+    inside, the others as they are."""
     for name in case.free:
-        for value in search_range(case.model, name) or ():
+        low, high = search_range(case.model, name) or (0.0, 0.0)
+        for value in (low, *(v for v in (0.0, 1.0) if low < v < high), high):
             yield case.one._replace(**{name: float(value)})
 
 

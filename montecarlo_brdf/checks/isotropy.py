@@ -40,7 +40,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 
 def _worst(case: Case) -> Exact:
-    sets = enumerate(interiors.sets(case, 2))
+    sets = enumerate((*interiors.sets(case, 2), *interiors.ends(case)))
     return worst_of(_worst_turned(case, p, case.random(NAME, k)) for k, p in sets)
 
 

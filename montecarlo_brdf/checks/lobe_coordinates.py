@@ -19,6 +19,10 @@ import numpy as np
 
 Array = Any
 SMALLEST = 1e-7
+#: A value so many times as large as any at a node belongs to what the nodes have missed.
+MISSED = 10.0
+#: directions and the solid angle that each stands for
+Probes = tuple[Array, Array]
 
 
 class Coordinates:
@@ -106,19 +110,32 @@ def grid(nx: int, nb: int) -> tuple[Array, Array, Array]:
 SIZES = ((24, 16), (48, 32), (96, 64), (128, 256), (192, 768))
 
 
-def integrate(function: Any, coordinates: Coordinates, target: float = 1e-6) -> Integral:
+def integrate(
+    function: Any, coordinates: Coordinates, target: float = 1e-6, probes: tuple[Probes, ...] = ()
+) -> Integral:
     """Integral of function(wi) over the hemisphere; nodes grow until two sizes agree.
 
     The error is the difference between the last two sizes: of the coarser one, so it errs on the
-    safe side for an integrand that is resolved at all.
+    safe side for an integrand that is resolved at all. Where two sizes agree because both miss a
+    lobe, `probes` may see it: what they say that it holds is then the error.
     """
     last, error = np.nan, np.inf
     for nx, nb in SIZES:
         x, b, w = grid(nx, nb)
         wi, jacobian = coordinates.directions(x, b)
-        value = float(np.sum(w * jacobian * function(wi)))
+        values = function(wi)
+        value = float(np.sum(w * jacobian * values))
         error = abs(value - last)
         if error <= target * abs(value):
             break
         last = value
-    return Integral(value, (error if np.isfinite(error) else abs(value)) + 1e-14 * abs(value))
+    error = error if np.isfinite(error) else abs(value)
+    missed = [_missed(function, probe, float(np.max(np.abs(values)))) for probe in probes]
+    return Integral(value, max(error, *missed, 0.0) + 1e-14 * abs(value))
+
+
+def _missed(function: Any, probe: Probes, highest: float) -> float:
+    """The integral of what is far above the highest value at a node."""
+    wi, angle = probe
+    values = np.abs(function(wi))
+    return float(np.sum((values * angle)[values > MISSED * highest]))

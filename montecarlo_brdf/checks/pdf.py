@@ -2,8 +2,9 @@
 
 int pdf by quadrature in coordinates that follow the lobe, plus the fraction of draws that are
 rejected, is 1; pdf |dw/du1 x dw/du2| = 1 by finite differences where one direction belongs to one
-pair of numbers; a returned weight is f cos/pdf; drawn directions are finite unit vectors with
-pdf > 0, which is finite and not negative anywhere. All this also at other azimuths and parameters.
+pair of numbers, and at least 1 where it belongs to several; a returned weight is f cos/pdf; drawn
+directions are finite unit vectors with pdf > 0, which is finite and not negative anywhere. All this
+also at other azimuths and parameters.
 It cannot see: a density that is wrong in shape where the sampler chooses among lobes (`sampling`
 can).
 """
@@ -17,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from montecarlo_brdf.checks import drawn, in_slopes, interiors
-from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import (
     Claim,
     ExactClaim,
@@ -26,8 +27,6 @@ from montecarlo_brdf.checks.claim import (
     Reference,
     Skip,
 )
-from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
-from montecarlo_brdf.checks.truth import lobe_scale
 from montecarlo_brdf.integration.evaluate import estimates
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.statistics import Estimate, hidden_error
@@ -37,6 +36,8 @@ QUESTION = "does the pdf integrate to 1, is it the sampler's Jacobian, is the we
 PROPERTY = "pdf"
 #: of the mass; the edge of the rejected region limits how fast the rejected fraction converges
 MASS_TOLERANCE = 5e-4
+#: degrees: beyond that samplers tend to have a way of their own
+GRAZING = 86.0
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -49,7 +50,7 @@ def claims(case: Case) -> Iterator[Claim]:
         if case.model.pdf is not None:
             yield _normalisation(case, theta)
             yield from _pointwise(case, theta)
-    for other, theta in interiors.elsewhere(case):
+    for other, theta in (*interiors.elsewhere(case), (case, GRAZING)):
         yield _claim(other, theta, "drawn directions at fault", 0.0, drawn.faults)
         if case.model.pdf is not None:
             if resolved(other, theta):
@@ -71,7 +72,7 @@ def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
 
 def resolved(case: Case, theta: float) -> bool:
     """Whether the quadrature of pdf is good enough to judge by."""
-    found = density_integral(case.model, case.one, case.wo(theta))
+    found = drawn.density_integral(case.model, case.one, case.wo(theta))
     return bool(found.error <= 0.25 * MASS_TOLERANCE)
 
 
@@ -106,15 +107,6 @@ def _normalisation(case: Case, theta: float) -> MeanClaim:
     )
 
 
-@functools.lru_cache(maxsize=128)
-def density_integral(case_model: Any, one: Any, wo: Any) -> Any:
-    """int pdf over the hemisphere, by quadrature."""
-    direction = np.array(wo)
-    coordinates = Coordinates(direction, lobe_scale(case_model, one, direction))
-    functions = pointwise(case_model, one)
-    return integrate(lambda wi: functions.pdf(direction, wi), coordinates)
-
-
 def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:
     """The same where a density with steps is more than the quadrature resolves."""
     found = in_slopes.mass(case.model, case.one, case.wo(theta), seed)
@@ -132,7 +124,7 @@ def _rejected(case: Case, theta: float, plan: Plan) -> Estimate:
 
 def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     """int pdf by quadrature plus the rejected fraction by draws."""
-    integral = density_integral(case.model, case.one, case.wo(theta))
+    integral = drawn.density_integral(case.model, case.one, case.wo(theta))
     rejected = _rejected(case, theta, plan)
     unfit = None
     if not integral.error <= 0.25 * case.tolerated(MASS_TOLERANCE) + 1e-9:

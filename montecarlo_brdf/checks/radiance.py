@@ -95,7 +95,8 @@ def _expected(case: Case, theta: float, sky: Any) -> Reference | None:
     def integrand(wi: Any) -> Any:
         return functions.f(wo, wi) * wi[:, 2] * sky(wi.T)
 
-    found = integrate(integrand, truth.coordinates(case.model, case.one, wo))
+    seen = truth.probes(case.model, case.one, wo)
+    found = integrate(integrand, truth.coordinates(case.model, case.one, wo), probes=seen)
     if not found.error <= 0.25 * TOLERANCE * abs(found.value):
         return None
     return Reference(found.value, found.error, "quadrature of the same f", "lobe coordinates")

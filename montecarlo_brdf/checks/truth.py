@@ -61,8 +61,39 @@ def quadrature(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> tup
     w = np.array(fixed)
     f = pointwise(model, one).f
     values = (lambda v: f(v, w)) if reverse else (lambda v: f(w, v))
-    found = integrate(lambda v: values(v) * v[:, 2], coordinates(model, one, w))
+    found = integrate(
+        lambda v: values(v) * v[:, 2],
+        coordinates(model, one, w),
+        probes=probes(model, one, w, reverse),
+    )
     return found.value, found.error
+
+
+@functools.lru_cache(maxsize=64)
+def _probes(model: Model, one: Any, fixed: Vec) -> tuple[Any, ...]:
+    """`probes` for a direction that is hashable."""
+    import numpy as np
+
+    from montecarlo_brdf.checks.case import pointwise
+
+    u = _pilot()
+    r, phi = np.sqrt(u[:, 0]), 2.0 * np.pi * u[:, 1]
+    cosine = np.stack([r * np.cos(phi), r * np.sin(phi), np.sqrt(1.0 - u[:, 0])], axis=-1)
+    found = [(cosine, np.pi / (PILOT * cosine[:, 2]))]
+    if model.sample and model.pdf:
+        wo = np.array(fixed)
+        drawn, _ = pointwise(model, one).sample(wo, u)
+        drawn = drawn[np.isfinite(drawn).all(axis=1) & (drawn[:, 2] > 0.0)]
+        density = pointwise(model, one).pdf(wo, drawn)
+        known = np.isfinite(density) & (density > 0.0)
+        found.append((drawn[known], 1.0 / (PILOT * density[known])))
+    return tuple(found)
+
+
+def probes(model: Model, one: Any, fixed: Any, reverse: bool = False) -> tuple[Any, ...]:
+    """Directions that may see what a quadrature misses: cosine-weighted, and the model's own."""
+    found = _probes(model, one, tuple(map(float, fixed)))
+    return found[:1] if reverse else found
 
 
 def coordinates(model: Model, one: Any, wo: Any) -> Any:

@@ -8,9 +8,9 @@ with more samples, refute it again.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from dataclasses import replace
 
-from montecarlo_brdf.checks.claim import MeanClaim, Measurement
+from montecarlo_brdf.checks.claim import MeanClaim
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.findings import Finding
 from montecarlo_brdf.report.looks import FRESH, GROWTH, looks
@@ -32,8 +32,30 @@ CONFIRMING_REPLICATES = 64
 CONFIRMING_POINTS = "sobol"
 
 
+#: estimators that use nothing of a model but its f
+OF_F_ALONE = ("uniform", "cosine")
+
+
 def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
-    """The finding for a mean: looked at until every estimator that can has decided."""
+    """The finding for a mean: looked at until every estimator that can has decided.
+
+    A quadrature of f that samples of the same f refute has missed something: then the estimators
+    are held against each other instead.
+    """
+    opinions, looked = _looked_at(claim, plan, level)
+    if claim.expected and claim.expected.kind.startswith("quadrature") and any(
+        o.verdict == "fail"
+        and o.measurement.estimator in OF_F_ALONE
+        and math.isfinite(o.measurement.estimate.mean)
+        for o in opinions
+    ):
+        claim = replace(claim, expected=None)
+        opinions, looked = _looked_at(claim, plan, level)
+    return _finding(claim, opinions, level, (looked, plan.samples), known)
+
+
+def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[list[Opinion], int]:
+    """What all estimators say at last, and the samples of that look."""
     opinions: list[Opinion] = []
     for look, samples in enumerate(looks(plan.samples), start=1):
         spent = level * 2.0**-look
@@ -43,8 +65,9 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
         if overall(opinions) == "fail" or settled(claim, opinions, plan.samples):
             break
     if claim.fallback and overall(opinions) == "inconclusive":
-        opinions += _asked_last(claim, claim.fallback, plan.seed, spent)
-    return _finding(claim, opinions, level, (sized.samples, plan.samples), known)
+        last = _asked_last if claim.expected else _compared_last
+        opinions = last(claim, opinions, plan.seed, spent)
+    return opinions, sized.samples
 
 
 def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: list[Opinion]) -> list[Opinion]:
@@ -68,14 +91,32 @@ def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: list[Opinion
 
 
 def _asked_last(
-    claim: MeanClaim, fallback: Callable[[int], Measurement], seed: int, level: float
+    claim: MeanClaim, opinions: list[Opinion], seed: int, level: float
 ) -> list[Opinion]:
-    """What is asked where samples left the claim open; a refutation counts if repeated."""
-    opinions = judged(claim, [fallback(seed)], level)
-    if overall(opinions) == "fail":
-        again = judged(claim, [fallback(seed + FRESH)], level)
-        opinions = opinions if overall(again) == "fail" else again
-    return opinions
+    """With what is asked where samples left the claim open; a refutation counts if repeated."""
+    assert claim.fallback
+    found = judged(claim, [claim.fallback(seed)], level)
+    if overall(found) == "fail":
+        again = judged(claim, [claim.fallback(seed + FRESH)], level)
+        found = found if overall(again) == "fail" else again
+    return [*opinions, *found]
+
+
+def _compared_last(
+    claim: MeanClaim, opinions: list[Opinion], seed: int, level: float
+) -> list[Opinion]:
+    """The same where estimators are held against each other: the most precise one may have had
+    none beside it. Two that agree hold the claim; two that do not leave it open."""
+    assert claim.fallback
+    last = claim.fallback(seed)
+    fit = [o for o in opinions if not o.measurement.unfit]
+    if not fit or last.unfit:
+        return [*opinions, *judged(claim, [last], level)]
+    best = min(fit, key=lambda o: o.half_width)
+    pair = judged(claim, [best.measurement, last], level)
+    if overall(pair) != "pass":
+        return opinions
+    return [*(o for o in opinions if o is not best), *pair]
 
 
 def _finding(
@@ -136,9 +177,14 @@ def _row(claim: MeanClaim, opinion: Opinion) -> dict[str, object]:
     elif opinion.verdict == "inconclusive":
         row["not_used"] = (
             f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples: "
-            f"needs about {needed(claim, opinion):.0e}"
+            f"needs about {_more(claim, opinion):.0e}"
         )
     return row
+
+
+def _more(claim: MeanClaim, opinion: Opinion) -> float:
+    """Samples that would decide: more than there were, where the interval alone was no obstacle."""
+    return max(needed(claim, opinion), GROWTH * opinion.measurement.estimate.samples)
 
 
 def _note(claim: MeanClaim, verdict: str, opinions: list[Opinion]) -> str | None:
@@ -148,7 +194,7 @@ def _note(claim: MeanClaim, verdict: str, opinions: list[Opinion]) -> str | None
     reasons = [o.measurement.unfit for o in opinions if o.measurement.unfit]
     fit = [o for o in opinions if not o.measurement.unfit]
     if fit:
-        need = min(needed(claim, o) for o in fit)
+        need = min(_more(claim, o) for o in fit)
         samples = fit[0].measurement.estimate.samples
         return f"undecided at {samples} samples: needs about {need:.0e}, allow more with --samples"
     return reasons[0] if reasons else None
