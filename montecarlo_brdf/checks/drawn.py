@@ -17,7 +17,7 @@ from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Exact
 from montecarlo_brdf.checks.hints import azimuth_named, moved_named, shape_named, wider_named
 from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
-from montecarlo_brdf.checks.truth import lobe_scale, probes
+from montecarlo_brdf.checks.truth import lobe_scale, own_probes
 from montecarlo_brdf.integration.probe import returns_weight
 
 NAME = "pdf"  # whose streams these are
@@ -69,7 +69,7 @@ def density_integral(case_model: Any, one: Any, wo: Any) -> Any:
     direction = np.array(wo)
     coordinates = Coordinates(direction, lobe_scale(case_model, one, direction))
     functions = pointwise(case_model, one)
-    seen = probes(case_model, one, wo)
+    seen = own_probes(case_model, one, wo)
     return integrate(lambda wi: functions.pdf(direction, wi), coordinates, probes=seen)
 
 
@@ -152,15 +152,15 @@ def jacobian(case: Case, theta: float) -> Exact:
     if np.median(area) == 0.0:
         alone = "one of the two numbers changes nothing: see `sampling`"
         return Exact(0.0, points=len(w), note=alone)
-    if _belongs_to_several(case, theta, ratio, len(u)):
-        # the pdf is the sum over all of them, so that it can only be too small for one
-        value = float(np.quantile(1.0 - ratio, 1.0 - SEAMS))
-        if value <= JACOBIAN_TOLERANCE:
-            several = "a direction belongs to several pairs of numbers: see `sampling`"
-            return Exact(max(0.0, value), points=len(w), note=several)
     value = float(np.quantile(np.abs(ratio - 1.0), 1.0 - SEAMS))
-    hint = _ratio(functions.pdf, area, wo, w) if value > JACOBIAN_TOLERANCE else None
-    return Exact(value, points=len(w), hint=hint)
+    if value <= JACOBIAN_TOLERANCE:
+        return Exact(value, points=len(w))
+    below = float(np.quantile(1.0 - ratio, 1.0 - SEAMS))
+    if below <= JACOBIAN_TOLERANCE and _belongs_to_several(case, theta, ratio, len(u)):
+        # the pdf is the sum over all of them, and can only be too small for one
+        several = "a direction belongs to several pairs of numbers: see `sampling`"
+        return Exact(max(0.0, below), points=len(w), note=several)
+    return Exact(value, points=len(w), hint=_ratio(functions.pdf, area, wo, w))
 
 
 def _belongs_to_several(case: Case, theta: float, ratio: Any, drawn: int) -> bool:

@@ -13,6 +13,7 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 
 #: numbers from which lobe coordinates learn the width of a sampler's lobe
 PILOT = 4096
+PROBES = 2048  # of these
 SHARPEST = 1e-5  # slope of the sharpest lobe that a model without a sampler may have
 
 
@@ -69,31 +70,33 @@ def quadrature(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> tup
     return found.value, found.error
 
 
-@functools.lru_cache(maxsize=64)
-def _probes(model: Model, one: Any, fixed: Vec) -> tuple[Any, ...]:
-    """`probes` for a direction that is hashable."""
+def probes(model: Model, one: Any, fixed: Any, reverse: bool = False) -> tuple[Any, ...]:
+    """Directions that may see what a quadrature misses: cosine-weighted, and the model's own."""
+    return (_cosine_probes(), *(() if reverse else own_probes(model, one, fixed)))
+
+
+@functools.cache
+def _cosine_probes() -> tuple[Any, Any]:
+    import numpy as np
+
+    u = _pilot()[:PROBES]
+    r, phi = np.sqrt(u[:, 0]), 2.0 * np.pi * u[:, 1]
+    wi = np.stack([r * np.cos(phi), r * np.sin(phi), np.sqrt(1.0 - u[:, 0])], axis=-1)
+    return wi, np.pi / (PROBES * wi[:, 2])
+
+
+def own_probes(model: Model, one: Any, fixed: Any) -> tuple[Any, ...]:
+    """Draws of the model's sampler, and the solid angle that each stands for; none without one."""
     import numpy as np
 
     from montecarlo_brdf.checks.case import pointwise
 
-    u = _pilot()
-    r, phi = np.sqrt(u[:, 0]), 2.0 * np.pi * u[:, 1]
-    cosine = np.stack([r * np.cos(phi), r * np.sin(phi), np.sqrt(1.0 - u[:, 0])], axis=-1)
-    found = [(cosine, np.pi / (PILOT * cosine[:, 2]))]
-    if model.sample and model.pdf:
-        wo = np.array(fixed)
-        drawn, _ = pointwise(model, one).sample(wo, u)
-        drawn = drawn[np.isfinite(drawn).all(axis=1) & (drawn[:, 2] > 0.0)]
-        density = pointwise(model, one).pdf(wo, drawn)
-        known = np.isfinite(density) & (density > 0.0)
-        found.append((drawn[known], 1.0 / (PILOT * density[known])))
-    return tuple(found)
-
-
-def probes(model: Model, one: Any, fixed: Any, reverse: bool = False) -> tuple[Any, ...]:
-    """Directions that may see what a quadrature misses: cosine-weighted, and the model's own."""
-    found = _probes(model, one, tuple(map(float, fixed)))
-    return found[:1] if reverse else found
+    if not (model.sample and model.pdf):
+        return ()
+    drawn = _drawn(model, one, tuple(map(float, fixed)))[1]
+    density = pointwise(model, one).pdf(np.array(fixed), drawn)
+    known = np.isfinite(density) & (density > 0.0)
+    return ((drawn[known], 1.0 / (PROBES * density[known])),)
 
 
 def coordinates(model: Model, one: Any, wo: Any) -> Any:
@@ -120,16 +123,24 @@ def deterministic(
 
 def lobe_scale(model: Model, one: Any, wo: Any) -> float:
     """The smallest slope of interest: from the model's own draws, else from values of f."""
-    import numpy as np
 
-    from montecarlo_brdf.checks.case import pointwise
     from montecarlo_brdf.checks.lobe_coordinates import scale_of
 
     if model.sample is None:
         return _probed_scale(model, one, wo, wo)
-    drawn, _ = pointwise(model, one).sample(wo, _pilot())
-    drawn = drawn[np.isfinite(drawn).all(axis=1)]
-    return scale_of(wo, drawn[drawn[:, 2] > 0.0])
+    return scale_of(wo, _drawn(model, one, tuple(map(float, wo)))[0])
+
+
+@functools.lru_cache(maxsize=8)
+def _drawn(model: Model, one: Any, wo: Vec) -> tuple[Any, Any]:
+    """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first."""
+    import numpy as np
+
+    from montecarlo_brdf.checks.case import pointwise
+
+    drawn, _ = pointwise(model, one).sample(np.array(wo), _pilot())
+    above = np.isfinite(drawn).all(axis=1) & (drawn[:, 2] > 0.0)
+    return drawn[above], drawn[:PROBES][above[:PROBES]]
 
 
 @functools.cache
