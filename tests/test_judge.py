@@ -170,6 +170,35 @@ def test_without_a_reference_estimators_are_held_against_each_other() -> None:
     assert decide(claim(differ, expected=None), PLAN).verdict == "fail"
 
 
+def quadrature(value: float) -> Reference:
+    return Reference(value, 1e-9, "quadrature of the same f", "")
+
+
+def test_a_quadrature_of_f_that_samples_of_f_refute_has_missed_something() -> None:
+    agree = both(steady(0.7, 1e-6, name="own"), steady(0.7, 1e-5, name="cosine"))
+    finding = decide(replace(claim(agree), expected=quadrature(0.5)), PLAN)
+    assert (finding.verdict, finding.expected) == ("pass", None)
+    differ = both(steady(0.7, 1e-6, name="own"), steady(0.6, 1e-5, name="cosine"))
+    assert decide(replace(claim(differ), expected=quadrature(0.5)), PLAN).verdict == "fail"
+
+
+def test_a_quadrature_of_f_refutes_the_models_own_draws() -> None:
+    own_wrong = both(steady(0.7, 1e-6, name="own"), steady(0.5, 1e-5, name="cosine"))
+    finding = decide(replace(claim(own_wrong), expected=quadrature(0.5)), PLAN)
+    assert (finding.verdict, finding.estimator) == ("fail", "own")
+    known = replace(claim(steady(0.7, 1e-6, name="cosine")), expected=Reference(0.5, 0.0, "", ""))
+    assert decide(known, PLAN).verdict == "fail"
+
+
+@pytest.mark.parametrize(("value", "verdict"), [(0.7, "pass"), (0.8, "inconclusive")])
+def test_one_estimator_alone_is_held_by_what_is_asked_last(value: float, verdict: str) -> None:
+    def last(seed: int) -> Measurement:
+        return Measurement("last", estimate(value, 1e-6, PLAN))
+
+    alone = replace(claim(steady(0.7, 1e-6), expected=None), fallback=last)
+    assert decide(alone, PLAN).verdict == verdict
+
+
 def test_the_error_of_a_reference_counts() -> None:
     vague = MeanClaim("A", {}, "equal", Reference(1.0, 0.2, "", ""), 1e-3, steady(1.1, 1e-6))
     assert decide(vague, PLAN).verdict == "inconclusive"

@@ -123,7 +123,6 @@ def deterministic(
 
 def lobe_scale(model: Model, one: Any, wo: Any) -> float:
     """The smallest slope of interest: from the model's own draws, else from values of f."""
-
     from montecarlo_brdf.checks.lobe_coordinates import scale_of
 
     if model.sample is None:
@@ -133,7 +132,8 @@ def lobe_scale(model: Model, one: Any, wo: Any) -> float:
 
 @functools.lru_cache(maxsize=8)
 def _drawn(model: Model, one: Any, wo: Vec) -> tuple[Any, Any]:
-    """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first."""
+    """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first
+    PROBES."""
     import numpy as np
 
     from montecarlo_brdf.checks.case import pointwise

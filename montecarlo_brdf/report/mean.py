@@ -30,28 +30,26 @@ CONFIRMING_REPLICATES = 64
 #: the probabilities of both being wrong multiply. Lattices are not asked: where one mode dominates,
 #: the tails of few shifts are not those of Student's t.
 CONFIRMING_POINTS = "sobol"
-
-
 #: estimators that use nothing of a model but its f
 OF_F_ALONE = ("uniform", "cosine")
 
 
 def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
-    """The finding for a mean: looked at until every estimator that can has decided.
-
-    A quadrature of f that samples of the same f refute has missed something: then the estimators
-    are held against each other instead.
-    """
+    """The finding for a mean: looked at until every estimator that can has decided."""
     opinions, looked = _looked_at(claim, plan, level)
-    if claim.expected and claim.expected.kind.startswith("quadrature") and any(
-        o.verdict == "fail"
-        and o.measurement.estimator in OF_F_ALONE
-        and math.isfinite(o.measurement.estimate.mean)
-        for o in opinions
-    ):
+    if _missed(claim, opinions):  # then the estimators are held against each other
         claim = replace(claim, expected=None)
         opinions, looked = _looked_at(claim, plan, level)
     return _finding(claim, opinions, level, (looked, plan.samples), known)
+
+
+def _missed(claim: MeanClaim, opinions: list[Opinion]) -> bool:
+    """Whether the expected value is a quadrature of f that samples of the same f refute: it has
+    missed something."""
+    refuting = [o.measurement for o in opinions if o.verdict == "fail"]
+    return bool(claim.expected and claim.expected.kind.startswith("quadrature")) and any(
+        m.estimator in OF_F_ALONE and math.isfinite(m.estimate.mean) for m in refuting
+    )
 
 
 def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[list[Opinion], int]:
