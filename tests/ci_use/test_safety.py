@@ -128,6 +128,8 @@ def interrupted(report: Path, *arguments: object, ready: Callable[[], bool]) -> 
     """Seconds from Ctrl-C to the end, of a run interrupted once `ready`."""
     command = [sys.executable, "-m", "montecarlo_brdf", "run", *map(str, arguments)]
     quiet: dict[str, Any] = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+    # a job in a shell's background ignores Ctrl-C, and so do all that it starts
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with subprocess.Popen([*command, "--export-json", str(report)], **quiet) as running:
         until = time.monotonic() + 3.0 * PATIENCE
         while not ready() and time.monotonic() < until:
@@ -135,7 +137,10 @@ def interrupted(report: Path, *arguments: object, ready: Callable[[], bool]) -> 
         time.sleep(0.5)
         running.send_signal(signal.SIGINT)
         started = time.monotonic()
-        _, errors = running.communicate(timeout=3.0 * PATIENCE)
+        try:
+            _, errors = running.communicate(timeout=3.0 * PATIENCE)
+        finally:
+            running.kill()
     assert running.returncode == 130 and b"Traceback" not in errors, errors
     return time.monotonic() - started
 
