@@ -92,12 +92,19 @@ def _from_file(path: Path) -> types.ModuleType:
     module.__file__ = str(path)
     try:
         with _no_bytecode():
-            exec(compile(path.read_bytes(), str(path), "exec"), vars(module))  # noqa: S102
+            exec(_compiled(path), vars(module))  # noqa: S102
     except SyntaxError as error:
         raise ModelError(f"{path}, line {error.lineno or 1}: {error.msg}") from error
     except (Exception, SystemExit) as error:
         raise ModelError(f"{path} {raised(error, path)} while it was loaded") from error
     return module
+
+
+def _compiled(path: Path) -> types.CodeType:
+    try:
+        return compile(path.read_bytes(), str(path), "exec")
+    except ValueError as error:  # what a null byte raises before Python 3.11.4
+        raise SyntaxError(str(error)) from error
 
 
 @contextlib.contextmanager

@@ -178,6 +178,9 @@ def test_a_quadrature_of_f_that_samples_of_f_refute_has_missed_something() -> No
     agree = both(steady(0.7, 1e-6, name="own"), steady(0.7, 1e-5, name="cosine"))
     finding = decide(replace(claim(agree), expected=quadrature(0.5)), PLAN)
     assert (finding.verdict, finding.expected) == ("pass", None)
+    # also where the model's own draws see it first
+    late = both(steady(0.7, 1e-6, name="own"), steady(0.7, 2e-4, name="cosine"))
+    assert decide(replace(claim(late), expected=quadrature(0.5)), PLAN).verdict == "pass"
     differ = both(steady(0.7, 1e-6, name="own"), steady(0.6, 1e-5, name="cosine"))
     assert decide(replace(claim(differ), expected=quadrature(0.5)), PLAN).verdict == "fail"
 

@@ -67,7 +67,7 @@ def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
     h = wo + wi
     h = h / np.sqrt(np.sum(h * h, axis=1))[:, None]
     mu_i, mu_o, mu_h = wi[:, 2], wo[:, 2], h[:, 2]
-    alone = bool(np.all(mu_o == mu_o[0]))  # one wo: its cosine is a number like any other
+    alone = bool(np.all(mu_o == mu_o[:1]))  # one wo: its cosine is a number like any other
     dot = np.sum(wo * h, axis=1)
     shapes = {
         "": np.ones_like(ratio),
