@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import fitness, in_slopes, truth
+from montecarlo_brdf.checks import fitness, in_slopes, interiors, truth
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import (
     AGREEMENT_TOLERANCE,
@@ -29,6 +29,7 @@ from montecarlo_brdf.checks.lobe_coordinates import integrate
 from montecarlo_brdf.integration import integrands
 from montecarlo_brdf.integration.evaluate import evaluate
 from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.probe import returns_weight
 from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
 from montecarlo_brdf.integration.subject import subject_of
 
@@ -60,10 +61,10 @@ WHICH = {name: float(k) for k, name in enumerate(SKIES)}
 
 
 def claims(case: Case) -> Iterator[Claim]:
-    """One per angle and sky."""
-    for theta in case.theta_o_deg:
+    """One per place and sky."""
+    for there, theta, where in _places(case):
         for name, sky in SKIES.items():
-            expected = _expected(case, theta, sky)
+            expected = _expected(there, theta, sky)
             if expected is None:
                 yield Skip(
                     f"L_o, {name} sky", "the quadrature does not resolve f: nothing to compare with"
@@ -71,14 +72,25 @@ def claims(case: Case) -> Iterator[Claim]:
                 continue
             yield MeanClaim(
                 f"L_o, {name} sky",
-                case.where(theta_o_deg=theta),
+                where,
                 "equal",
                 expected,
                 case.tolerated(TOLERANCE) * abs(expected.value),
-                functools.partial(_measure, case, theta, name),
+                functools.partial(_measure, there, theta, name),
                 property=PROPERTY,
-                fallback=_fallback(case, theta, name),
+                fallback=_fallback(there, theta, name),
             )
+
+
+def _places(case: Case) -> Iterator[tuple[Case, float, dict[str, Any]]]:
+    """The angles asked about; for a sampler that returns its weight and has no pdf also other
+    azimuths and parameters, as nothing else holds that weight against f."""
+    for theta in case.theta_o_deg:
+        yield case, theta, case.where(theta_o_deg=theta)
+    if case.model.sample and case.model.pdf is None and returns_weight(case.model):
+        for other, theta in interiors.elsewhere(case):
+            where = {**other.where(theta_o_deg=theta), **interiors.changed(case, other.one)}
+            yield other, theta, where
 
 
 def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measurement] | None:
