@@ -71,11 +71,16 @@ def drawn(setting: methods.Setting, wo: Any, size: int, seeds: int) -> list[Esti
 
 
 def coverage(
-    setting: methods.Setting, sight: Any, wo: Any, truth: Any, size: int, seeds: int
+    setting: methods.Setting,
+    demanded: float,
+    sight: Any,
+    wo: Any,
+    truth: Any,
+    size: int,
+    seeds: int,
 ) -> float | str:
     """The fraction of seeds whose 95 % interval holds the reference, whose own error is allowed
     for; or why the method is not used: a probe demands more, or the judge of samplers does."""
-    demanded = need(setting, wo)
     if demanded > size:
         return f"unfit: a probe demands {demanded:.0f}"
     found, sampler = drawn(setting, wo, size, seeds), setting.method.sampler
@@ -102,8 +107,9 @@ def look(model: Any, p: Any, theta: float, seeds: int) -> Iterator[dict[str, Any
     sight = fitness.look(variant, variant.prepared(p), wo)
     for method in methods.methods(variant):
         setting = methods.prepare(variant, p, type(p), method)
+        demanded = need(setting, wo)
         found = {
-            REPLICATES * n: coverage(setting, sight, wo, truth, n, seeds) for n in SIZES
+            REPLICATES * n: coverage(setting, demanded, sight, wo, truth, n, seeds) for n in SIZES
         }
         name = f"{method.sampler} x {method.points}"
         yield {**case, "method": name, "probed": setting.probed, "coverage": found}

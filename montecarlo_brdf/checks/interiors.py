@@ -92,6 +92,11 @@ def elsewhere(case: Case) -> Iterator[tuple[Case, float]]:
         yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
 
 
+def where(case: Case, theta_deg: float) -> dict[str, Any]:
+    """The place of a case elsewhere, for a finding: its angles and its free parameters."""
+    return {**case.where(theta_o_deg=theta_deg), **changed(case, case.one)}
+
+
 def changed(case: Case, p: Any) -> dict[str, float]:
     """The free parameters of a set by name, for a finding's place."""
     return {case.model.labels.get(n, n): float(f"{getattr(p, n):.12g}") for n in case.free}

@@ -89,8 +89,7 @@ def _claim(case: Case, theta: Any, quantity: str, tolerance: float, evaluate: An
 
 
 def _where(case: Case, theta: Any) -> dict[str, Any]:
-    places = {} if theta is None else case.where(theta_o_deg=theta)
-    return {**places, **interiors.changed(case, case.one)}
+    return interiors.changed(case, case.one) if theta is None else interiors.where(case, theta)
 
 
 def _normalisation(case: Case, theta: float) -> MeanClaim:

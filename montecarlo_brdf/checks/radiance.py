@@ -89,8 +89,7 @@ def _places(case: Case) -> Iterator[tuple[Case, float, dict[str, Any]]]:
         yield case, theta, case.where(theta_o_deg=theta)
     if case.model.sample and case.model.pdf is None and returns_weight(case.model):
         for other, theta in interiors.elsewhere(case):
-            where = {**other.where(theta_o_deg=theta), **interiors.changed(case, other.one)}
-            yield other, theta, where
+            yield other, theta, interiors.where(other, theta)
 
 
 def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measurement] | None:

@@ -60,7 +60,7 @@ def _elsewhere(case: Case, theta: float, cells: Any) -> FitClaim:
     measure = refined(case, theta, cells, tolerance, COARSE, FINE, FINEST)
     return FitClaim(
         "distance of draws from pdf",
-        {**case.where(theta_o_deg=theta), **interiors.changed(case, case.one)},
+        interiors.where(case, theta),
         tolerance,
         lambda plan, level: measure(plan._replace(samples=min(plan.samples, FEWER)), level),
         property=PROPERTY,
