@@ -115,7 +115,9 @@ def buffer(size: int) -> Any:
     @intrinsic
     def buffer(typing: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            return cgutils.alloca_once(builder, ir.DoubleType(), size=size)
+            room = cgutils.alloca_once(builder, ir.DoubleType(), size=size)
+            room.align = 64
+            return room
 
         return numba.types.CPointer(numba.float64)(), generate
 
