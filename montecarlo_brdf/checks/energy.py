@@ -7,6 +7,7 @@ fresh stream and judged against 1. It cannot see: a peak narrower than the searc
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -14,7 +15,14 @@ import numpy as np
 
 from montecarlo_brdf.checks import fitness, furnace, interiors, search, truth
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import BOUND_TOLERANCE, Claim, MeanClaim, Measurement, Reference
+from montecarlo_brdf.checks.claim import (
+    BOUND_TOLERANCE,
+    Claim,
+    MeanClaim,
+    Measurement,
+    Reference,
+    Skip,
+)
 from montecarlo_brdf.integration.evaluate import estimates
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
@@ -34,6 +42,19 @@ def claims(case: Case) -> Iterator[Claim]:
             space = search.Space(case._replace(p=one))
             channel = {"channel": k} if len(case.sets) > 1 else {}
             yield _claim(space, quantity, symbol, channel)
+    yield from _unasked(case.model)
+
+
+def _unasked(model: Model) -> Iterator[Claim]:
+    """What no search reaches, so that nobody takes a pass for more than it is."""
+    for name in model.Params._fields:  # type: ignore[attr-defined]
+        if not model.verified and not all(map(math.isfinite, model.domain.get(name, (math.inf,)))):
+            reason = f"no other {name} is asked: declare a domain with two ends"
+            yield Skip(f"other {name}", reason)
+    for name, options in model.choices.items():
+        others = ", ".join(o for o in options if o != model.picks[name])
+        reason = f"no other {name} than {model.picks[name]} is asked: -p {name}=... for {others}"
+        yield Skip(f"other {name}", reason)
 
 
 def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, int]) -> Claim:

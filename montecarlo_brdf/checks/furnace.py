@@ -41,7 +41,7 @@ def claims(case: Case) -> Iterator[Claim]:
     """Two per angle and channel, and for a mixture that its weights add up to at most 1."""
     for theta in case.theta_o_deg:
         yield from _at_angle(case, theta)
-    if case.model.albedo and case.free:
+    if case.model.albedo:
         yield inside(case, "A elsewhere", lambda mu, p: float(case.model.albedo(mu, p)), "albedo()")
     for k, one in enumerate(case.sets if case.model.terms else []):
         yield _weights(case, one, {"channel": k} if len(case.sets) > 1 else {})
@@ -125,12 +125,15 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
     )
 
 
-def _elsewhere(case: Case, p: Any, known: Any) -> str:
-    """Where it deviates most, and how much there should be."""
+def _elsewhere(case: Case, p: Any, known: Any) -> str | None:
+    """Where it deviates most, if not at the defaults, and how much there should be."""
     from montecarlo_brdf.checks import interiors
 
-    changed = ", ".join(f"{k} = {v:.4g}" for k, v in interiors.changed(case, p).items())
-    return f"not at the defaults, but with {changed}: {known(p):.6g} is expected there"
+    usual, there = interiors.changed(case, case.one), interiors.changed(case, p)
+    changed = [f"{k} = {v:.4g}" for k, v in there.items() if v != usual[k]]
+    if not changed:
+        return None
+    return f"not at the defaults, but with {', '.join(changed)}: {known(p):.6g} is expected there"
 
 
 def _weights(case: Case, one: Any, where: dict[str, Any]) -> Claim:

@@ -4,9 +4,8 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.integration import kernel, parameters
+from montecarlo_brdf.integration import integrands, kernel, parameters
 from montecarlo_brdf.integration.build import buffer, fingerprint
-from montecarlo_brdf.integration.integrands import PLANE
 from montecarlo_brdf.integration.reach import takes_more
 from montecarlo_brdf.integration.specialise import Specialiser
 from montecarlo_brdf.sampling import points as point_sets
@@ -39,11 +38,21 @@ class Recipe(NamedTuple):
 
     def point_set(self) -> Function:
         """The points; of Sobol's only the coordinates that the integrands use."""
-        if self.points == "sobol" and all(i in PLANE for i in self.integrands):
+        if self.points == "sobol" and all(i in integrands.PLANE for i in self.integrands):
             choosing = takes_more(self.functions.get("SAMPLE"), 1, 2)
             return point_sets.sobol_plane if choosing else point_sets.sobol_pair
         found: Function = getattr(point_sets, self.points)
         return found
+
+    def direction(self) -> Function | None:
+        """What makes a point a direction, if all integrands want the same of it and no more."""
+        first, *others = {integrands.DIRECTED.get(i) for i in self.integrands}
+        return None if others else first
+
+    def bound(self) -> Mapping[str, Function]:
+        """What names in the integrands stand for."""
+        made = self.direction()
+        return {**self.functions, made.__name__: integrands.as_made} if made else self.functions
 
     def _shape(self) -> Function:
         return kernel.shaped if self.points in point_sets.SHAPES else kernel.shapeless
@@ -51,12 +60,12 @@ class Recipe(NamedTuple):
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
         content = fingerprint(self.layout)
-        content.add((self.point_set(), self._shape()))
+        content.add((self.point_set(), self._shape(), self.direction()))
         for integrand in self.integrands:
             if isinstance(integrand, Wrapped):
                 content.add(integrand.outer)
                 integrand = integrand.inner
-            content.add(integrand, self.functions)
+            content.add(integrand, self.bound())
         content.add(kernel.moments)
         content.add(len(self.integrands))
         return content.hexdigest()
@@ -67,24 +76,26 @@ class Recipe(NamedTuple):
 
     def assemble(self, special: Specialiser) -> Function:
         """The template `moments` with everything bound."""
-        integrands = [self._bound(special, i) for i in self.integrands]
+        slots = [self._bound(special, i) for i in self.integrands]
         bound = {
             "POINTS": self.point_set(),
+            "TURN": self.direction() or integrands.cosine_direction,
+            "TURNED": self.direction() is not None,
             "SHAPE": self._shape(),
-            "STORE": _store(special, integrands),
+            "STORE": _store(special, slots),
             "PARAMETERS": parameters.unpacker(self.layout),
-            "BUFFER": buffer(kernel.ROOM * self.channels * len(integrands)),
+            "BUFFER": buffer(kernel.ROOM * self.channels * len(slots)),
             "ROW": buffer(kernel.ROOM),
             "CHANNELS": self.channels,
-            "SLOTS": len(integrands),
+            "SLOTS": len(slots),
         }
         return special.clone(kernel.moments, bound)
 
     def _bound(self, special: Specialiser, integrand: Function | Wrapped) -> Any:
         if isinstance(integrand, Wrapped):
-            inside = special.bind(integrand.inner, self.functions)
+            inside = special.bind(integrand.inner, self.bound())
             return special.bind(integrand.outer, {"INSIDE": inside})
-        return special.bind(integrand, self.functions)
+        return special.bind(integrand, self.bound())
 
 
 def _store(special: Specialiser, integrands: list[Any]) -> Any:
