@@ -31,6 +31,8 @@ CLAIMS = {
 }
 SLACK = 0.05  # the slope -1/2 is exact: its estimate lies on both sides of it
 RANDOMISATIONS = 32
+#: of independent points, whose slope is its claim: SLACK is six standard errors then, not three
+RANDOMISATIONS_INDEPENDENT = 256
 FIRST, CONSTANT = 4, 1e-13  # log2 of the fewest samples; an error below that is rounding
 USABLE = 0.1  # relative error above which a lobe is not yet resolved
 USABLE_INDEPENDENT = 1.0  # independent points have the same slope at every N
@@ -112,8 +114,8 @@ def curve(case: Case, theta: float, sampler: str, plan: Plan, known: Reference) 
     """Double N until the error is as small as that of the reference or the samples run out."""
     floor = max(known.error / abs(known.value), 4.0 * 2.0**-52)
     levels: list[Level] = []
-    n = 1 << FIRST
-    while n * RANDOMISATIONS <= plan.samples and not (levels and levels[-1].error < 2.0 * floor):
+    n, most = 1 << FIRST, plan.samples // randomisations(plan.points)
+    while n <= most and not (levels and levels[-1].error < 2.0 * floor):
         levels.append(_level(case, theta, sampler, plan, known.value, n))
         n *= 2
     smooth = sampler in CHARTS and not (case.model.kinks and sampler != "panels")
@@ -125,8 +127,14 @@ def curve(case: Case, theta: float, sampler: str, plan: Plan, known: Reference) 
     return Curve(sampler, plan.points, smooth, claim, floor, levels, fit)
 
 
+def randomisations(points: str) -> int:
+    """How many a level takes."""
+    return RANDOMISATIONS_INDEPENDENT if points == "independent" else RANDOMISATIONS
+
+
 def _level(case: Case, theta: float, sampler: str, plan: Plan, truth: float, n: int) -> Level:
-    many = plan._replace(samples=n * RANDOMISATIONS, replicates=RANDOMISATIONS)
+    replicates = randomisations(plan.points)
+    many = plan._replace(samples=n * replicates, replicates=replicates)
     name = integrand_name(case.model, "albedo", sampler)
     # a stream of its own per N: errors at different N are independent, as the fit assumes
     row = estimates(case.model, case.one, case.wo(theta), [name], many, (NAME, sampler, n))
