@@ -121,19 +121,18 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
         functools.partial(of_channel, functools.cache(functools.partial(measure, there, theta)), 0),
         property="reference",
         unit=units(case.model, there.one),
-        cause=_elsewhere(case, there.one, lambda p: known(there.wo(theta)[2], p)),
+        cause=_elsewhere(case, there.one, theta, expected(at)),
     )
 
 
-def _elsewhere(case: Case, p: Any, known: Any) -> str | None:
-    """Where it deviates most, if not at the defaults, and how much there should be."""
+def _elsewhere(case: Case, p: Any, theta: float, due: float) -> str:
+    """Where it deviates most, and how much there should be."""
     from montecarlo_brdf.checks import interiors
 
     usual, there = interiors.changed(case, case.one), interiors.changed(case, p)
     changed = [f"{k} = {v:.4g}" for k, v in there.items() if v != usual[k]]
-    if not changed:
-        return None
-    return f"not at the defaults, but with {', '.join(changed)}: {known(p):.6g} is expected there"
+    place = f"not at the defaults, but with {', '.join(changed)}"
+    return f"{place if changed else f'most at {theta:.1f} degrees'}: {due:.6g} is expected there"
 
 
 def _weights(case: Case, one: Any, where: dict[str, Any]) -> Claim:
