@@ -41,7 +41,7 @@ def claims(case: Case) -> Iterator[Claim]:
     """Two per angle and channel, and for a mixture that its weights add up to at most 1."""
     for theta in case.theta_o_deg:
         yield from _at_angle(case, theta)
-    if case.model.albedo:
+    if case.model.albedo and searchable(case):
         yield inside(case, "A elsewhere", lambda mu, p: float(case.model.albedo(mu, p)), "albedo()")
     for k, one in enumerate(case.sets if case.model.terms else []):
         yield _weights(case, one, {"channel": k} if len(case.sets) > 1 else {})
@@ -91,6 +91,11 @@ def _fallback(
     from montecarlo_brdf.checks import in_slopes
 
     return functools.partial(in_slopes.albedo, model, one, wo)
+
+
+def searchable(case: Case) -> bool:
+    """Whether to look beyond what was asked: not where somebody fixed every parameter."""
+    return bool(case.free) or case.one == ()
 
 
 def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:

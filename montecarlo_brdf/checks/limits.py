@@ -38,7 +38,7 @@ def claims(case: Case) -> Iterator[Claim]:
         yield Skip("limits", "the model declares no limits and no lossless parameter set")
     for p in lossless:
         yield from _lossless_claims(case, p)
-    if case.model.lossless is True:
+    if case.model.lossless is True and furnace.searchable(case):
         yield furnace.inside(case, "A of a lossless surface", lambda mu, p: 1.0, "lossless")
     for changes, spec in declared:
         yield _limit(case, dict(changes), spec)
@@ -46,7 +46,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 def _lossless(case: Case) -> list[object]:
     """The parameter sets that must reflect exactly 1."""
-    if case.model.lossless is True:
+    if case.model.lossless is True and furnace.searchable(case):
         return list(case.sets)
     return list(case.model.lossless or ())
 

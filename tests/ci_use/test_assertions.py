@@ -71,7 +71,8 @@ FORMS: dict[str, Callable[[Path], tuple[Any, Any]]] = {
 def test_every_form(form: str, user_file: Callable[..., Path]) -> None:
     brdf, p = FORMS[form](user_file(FILE))
     report = assert_furnace(brdf, p, expected=0.5, **FEW)
-    assert report.verdict == "pass" and len(report.results[0].findings) == 4
+    asked = [f.quantity for f in report.results[0].findings]
+    assert report.verdict == "pass" and asked[:4] == ["A", "A <= 1"] * 2
 
 
 def test_a_refutation_says_what_and_where() -> None:
