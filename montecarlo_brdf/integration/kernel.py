@@ -52,6 +52,7 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
     query = (reals[0], reals[1], reals[2], reals[3])
     parameters = PARAMETERS(reals)
     u0, u1, u2, u3, u4 = ROW(), ROW(), ROW(), ROW(), ROW()
+    w0, w1, w2 = ROW(), ROW(), ROW()
     x = BUFFER()
     stop = ints[3] + ints[4]
     for r in range(ints[2]):
@@ -63,9 +64,12 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
                 u0[j], u1[j], u2[j], u3[j], u4[j] = POINTS(key, u64(i + j), shape)
             if TURNED:
                 for j in range(m):
-                    u0[j], u1[j], u2[j] = TURN((u0[j], u1[j]))
+                    w0[j], w1[j], w2[j] = TURN((u0[j], u1[j]))
             for j in range(m):
-                u = (u0[j], u1[j], u2[j], u3[j], u4[j])
+                if TURNED:
+                    u = (w0[j], w1[j], w2[j], 0.0, 0.0)
+                else:
+                    u = (u0[j], u1[j], u2[j], u3[j], u4[j])
                 for k in range(CHANNELS):
                     STORE(u, query, parameters[k], x, k * SLOTS * ROOM + j)
             for k in range(CHANNELS * SLOTS):
