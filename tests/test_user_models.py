@@ -177,3 +177,17 @@ def test_a_model_beside_its_helpers(user_file: Write) -> None:
         "import shading_helper\ndef f(wo, wi, p):\n    return shading_helper.shade(2.0)\n"
     )
     assert albedo(path) == pytest.approx(0.2 * math.pi, rel=1e-14)
+
+
+@pytest.mark.parametrize("fixed", [[], ["-p", "k=0.3"]])
+def test_lossless_with_and_without_parameters_to_vary(
+    fixed: list[str], cli: Callable[..., Outcome], user_file: Callable[..., Path]
+) -> None:
+    path = user_file(
+        "import math\nfrom typing import NamedTuple\n\n\nclass Params(NamedTuple):\n"
+        "    k: float = 0.5\n\n\ndomain = {'k': (0.0, 1.0)}\nlossless = True\n\n\n"
+        "def f(wo, wi, p):\n    return 1.0 / math.pi\n"
+    )
+    outcome = cli("run", "--model", path, "--check", "limits", *fixed)
+    assert outcome.code == 0, outcome.err
+    assert f"PASS  {3 if fixed else 4} pass" in outcome.out
