@@ -116,7 +116,7 @@ def buffer(size: int) -> Any:
     def buffer(typing: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             room = cgutils.alloca_once(builder, ir.DoubleType(), size=size)
-            room.align = 64
+            room.align = 64  # or half of all vectors straddle two lines of the cache
             return room
 
         return numba.types.CPointer(numba.float64)(), generate
