@@ -2,8 +2,8 @@
 
 A Feistel network makes of a counter the words of two coordinates: the first after five rounds, the
 second after two more. A round needs one product of 32-bit words, of which a processor makes four or
-eight at a time; SplitMix64's 64-bit products, put together from three each, took most of a kernel's
-time. All 52 bits of a coordinate count: samplers cut one number into two.
+eight at a time; SplitMix64's 64-bit products, put together from three each, took half the time of a
+simple kernel. All 52 bits of a coordinate count: samplers cut one number into two.
 Source: Salmon, Moraes, Dror, Shaw 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", Philox2x32.
 There a key changes in every round; here it is where the counter starts. How many rounds are needed
 was measured: scripts/results/practrand.md.
