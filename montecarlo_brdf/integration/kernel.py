@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from montecarlo_brdf.bits import double_of, u64, word_of
+from montecarlo_brdf.bits import larger, u64
 from montecarlo_brdf.sampling.points import NONE, replicate_key
 
 BLOCK = 512
@@ -113,19 +113,18 @@ def merge_block(x: Any, start: int, m: int, out: Any, at: int) -> None:
     origin = x[start]
     total = 0.0
     squares = 0.0
-    rise = 0  # of the largest value above the first, as a word: they are ordered like the numbers
+    rise = 0.0  # of the largest value above the first
     for j in range(m):
         d = x[start + j] - origin
         total += d
         squares += d * d
-        word = word_of(d)
-        rise = word if word > rise else rise
+        rise = larger(d, rise)
     count = out[at]
     merged = count + m
     shift = origin + total / m - out[at + 1]
     out[at] = merged
     out[at + 1] += shift * (m / merged)
     out[at + 2] += (squares - total * total / m) + shift * (shift * (count * m / merged))
-    largest = origin + double_of(rise)
+    largest = origin + rise
     out[at + 3] = out[at + 3] if largest <= out[at + 3] else largest
 
