@@ -5,7 +5,7 @@ import functools
 import math
 from typing import Any
 
-from montecarlo_brdf import references
+from montecarlo_brdf.checks import remembered
 from montecarlo_brdf.checks.claim import AGREEMENT_TOLERANCE, Measurement, Reference
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate
@@ -36,7 +36,7 @@ def independent(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) 
     if not model.built_in:
         return None
     turned = {} if model.isotropic else {"phi_o": math.radians(phi_deg)}
-    truth = references.albedo(model.name, mu, **one._asdict(), **model.picks, **turned)
+    truth = remembered.albedo(model.name, mu, **one._asdict(), **model.picks, **turned)
     return Reference(*truth) if truth else None
 
 

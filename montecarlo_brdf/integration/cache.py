@@ -3,6 +3,7 @@
 A file is a digest and an object file. It is written beside its final name and moved there, so two
 processes that compile the same kernel at once cannot disturb each other; a damaged file does not
 match its digest and counts as absent; a cache that cannot be written is not an error, only slow.
+Beside them lie notes: files of lines, each with its digest, to which any process may add.
 """
 from __future__ import annotations
 
@@ -15,6 +16,7 @@ from pathlib import Path
 
 DIGEST = 16
 KEEP = 2000  # files; the least recently used beyond that are removed
+LARGEST_NOTES = 1 << 20  # bytes; a file of notes beyond that is begun anew
 LEFT_BEHIND = 3600.0  # seconds after which nobody writes a file any more
 
 
@@ -62,12 +64,36 @@ def write(name: str, image: bytes) -> None:
             os.unlink(temporary)
 
 
+def notes(name: str) -> list[str]:
+    """The lines noted under a name, without damaged ones."""
+    path = directory() / f"{name}.txt"
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return []
+    with contextlib.suppress(OSError):
+        os.utime(path)
+    whole = (line.partition(b" ") for line in content.splitlines())
+    return [text.decode() for digest, _, text in whole if digest == _digest(text).hex().encode()]
+
+
+def note(name: str, line: str) -> None:
+    """Add a line; silently do without where the directory cannot be written."""
+    path, text = directory() / f"{name}.txt", line.encode()
+    with contextlib.suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with open(path, "ab") as file:  # one write of a short line: processes do not mix theirs
+            if file.tell() > LARGEST_NOTES:
+                file.truncate(0)
+            file.write(_digest(text).hex().encode() + b" " + text + b"\n")
+
+
 def _digest(image: bytes) -> bytes:
     return hashlib.blake2b(image, digest_size=DIGEST).digest()
 
 
 def _prune(folder: Path) -> None:
-    files = list(folder.glob("*.o"))
+    files = [*folder.glob("*.o"), *folder.glob("*.txt")]
     if len(files) <= KEEP:
         return
     for path in sorted(files, key=lambda p: p.stat().st_mtime)[: len(files) - KEEP]:

@@ -6,6 +6,7 @@ imported; `compiler` makes the files, and says how a kernel is called.
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import functools
 import importlib.util
@@ -34,22 +35,22 @@ def identity() -> tuple[Any, ...]:
     return (
         sys.version_info[:3],
         platform.machine(),
-        _release("numba"),
-        _release("llvmlite"),
+        release("numba"),
+        release("llvmlite"),
         *target(),
     )
 
 
-def _release(package: str) -> str:
+def release(package: str) -> str:
     """Which release of a package this is, from the file in which it keeps its version: to import
     the package takes half a second, to import importlib.metadata a tenth of a warm run."""
     spec = importlib.util.find_spec(package)
-    try:
-        return Path(str(spec and spec.origin)).with_name("_version.py").read_text(encoding="utf-8")
-    except OSError:
-        from importlib.metadata import version
+    for name in ("_version.py", "version.py"):
+        with contextlib.suppress(OSError):
+            return Path(str(spec and spec.origin)).with_name(name).read_text(encoding="utf-8")
+    from importlib.metadata import version
 
-        return version(package)
+    return version(package)
 
 
 def load(image: bytes) -> NativeKernel:

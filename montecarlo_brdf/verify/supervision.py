@@ -53,9 +53,6 @@ class _Work:
         ctypes.pythonapi.PyThreadState_SetAsyncExc(identity, ctypes.py_object(Left))
 
 
-_left: list[_Work] = []
-
-
 @functools.cache
 def _hush() -> None:
     """In a compiler's callback `Left` cannot be raised: Python need not print it either."""
@@ -103,8 +100,7 @@ def _errors(works: list[_Work]) -> list[BaseException]:
 
 
 def _leave(works: list[_Work]) -> None:
-    """End them as soon as they can be, and remember them in case they cannot."""
-    _left.extend(works)
+    """End them as soon as they can be."""
     for work in works:
         work.leave()
     until = time.monotonic() + UNWINDING
@@ -121,8 +117,3 @@ def _started(function: Callable[[], Any]) -> _Work:
     finally:
         threading.stack_size(size)
     return work
-
-
-def still_running() -> bool:
-    """Whether work that was left still runs: then a process must end without waiting for it."""
-    return any(work.thread.is_alive() for work in _left)
