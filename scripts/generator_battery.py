@@ -27,7 +27,7 @@ from randomness_tests import TESTS, U64, Words
 from scipy import stats
 
 from montecarlo_brdf.bits import GOLDEN
-from montecarlo_brdf.sampling.independent import HIGH, LOW, MULTIPLIER
+from montecarlo_brdf.sampling.independent import LOW, MULTIPLIER
 from montecarlo_brdf.sampling.keys import axis_key, replicate_key
 
 LEVEL = 1e-6
@@ -40,8 +40,8 @@ ROUNDS = (5, 7)  # of the first and second coordinate of a pair
 def scattered(z: Words, rounds: int = ROUNDS[0]) -> Words:
     """`sampling.independent.crossed`, some times, on arrays."""
     for _ in range(rounds):
-        mixed = (z & U64(LOW)) * U64(MULTIPLIER) ^ (z & U64(HIGH))
-        z = (mixed << U64(32)) | (mixed >> U64(32))
+        product = (z & U64(LOW)) * U64(MULTIPLIER)
+        z = (product << U64(32)) | (product >> U64(32)) ^ (z >> U64(32))
     return z
 
 

@@ -87,8 +87,7 @@ def _cause(space: search.Space, spot: search.Spot, value: search.Value) -> str:
         return "grows towards grazing: look at masking and at cosines in denominators"
     own = np.array([(*spot.at[: 1 + space.turning], *space.own())])
     if value(own, "climb")[0] <= 1.0 + BOUND_TOLERANCE < spot.value:
-        changed = interiors.changed(case, space.parameters(spot.at)).items()
-        return "not at the defaults, but with " + ", ".join(f"{k} = {v:.4g}" for k, v in changed)
+        return interiors.unlike(case, space.parameters(spot.at))
     turned = f", azimuth {space.direction(spot.at)[1]:.0f}" if space.turning else ""
     return f"most at {theta:.1f} degrees{turned}: compare the normalisation, weights that add up"
 

@@ -134,10 +134,8 @@ def _elsewhere(case: Case, p: Any, theta: float, due: float) -> str:
     """Where it deviates most, and how much there should be."""
     from montecarlo_brdf.checks import interiors
 
-    usual, there = interiors.changed(case, case.one), interiors.changed(case, p)
-    changed = [f"{k} = {v:.4g}" for k, v in there.items() if v != usual[k]]
-    place = f"not at the defaults, but with {', '.join(changed)}"
-    return f"{place if changed else f'most at {theta:.1f} degrees'}: {due:.6g} is expected there"
+    place = interiors.unlike(case, p) or f"most at {theta:.1f} degrees"
+    return f"{place}: {due:.6g} is expected there"
 
 
 def _weights(case: Case, one: Any, where: dict[str, Any]) -> Claim:

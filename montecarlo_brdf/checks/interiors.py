@@ -100,3 +100,10 @@ def where(case: Case, theta_deg: float) -> dict[str, Any]:
 def changed(case: Case, p: Any) -> dict[str, float]:
     """The free parameters of a set by name, for a finding's place."""
     return {case.model.labels.get(n, n): float(f"{getattr(p, n):.12g}") for n in case.free}
+
+
+def unlike(case: Case, p: Any) -> str:
+    """In words, in what a parameter set differs from the one asked about; nothing if in nothing."""
+    usual = changed(case, case.one)
+    differing = [f"{k} = {v:.4g}" for k, v in changed(case, p).items() if v != usual[k]]
+    return f"not at the defaults, but with {', '.join(differing)}" if differing else ""

@@ -14,23 +14,34 @@ from montecarlo_brdf.bits import u64, unit
 from montecarlo_brdf.sampling.keys import NONE, Point, Shape, axis_key
 
 LOW = 0xFFFFFFFF
-HIGH = 0xFFFFFFFF00000000
 MULTIPLIER = 0xD256D193
 
 
-def crossed(z: int) -> int:
-    """A bijection: the lower half times a constant; the product's halves change places, and the
-    one that becomes the lower takes up the upper half of z."""
-    product = u64(u64(z & u64(LOW)) * u64(MULTIPLIER))
-    mixed = product ^ (z & u64(HIGH))
-    return u64(mixed << u64(32)) | (mixed >> u64(32))
+def crossed(left: int, right: int) -> tuple[int, int]:
+    """A round: the halves of right times a constant change places, and the one that becomes right
+    takes up left. Only the lower 32 bits of both words count: to clear the others would cost."""
+    product = u64(u64(right & u64(LOW)) * u64(MULTIPLIER))
+    return product, (product >> u64(32)) ^ left
+
+
+def joined(left: int, right: int) -> int:
+    """The 64 bits of both halves."""
+    return u64(left << u64(32)) | (right & u64(LOW))
 
 
 def words(key: int, index: int, pair: int) -> tuple[int, int]:
     """The words of coordinates 2 pair and 2 pair + 1."""
     z = u64(axis_key(key, pair) + u64(index))
-    first = crossed(crossed(crossed(crossed(crossed(z)))))
-    return first, crossed(crossed(first))
+    left, right = z >> u64(32), z
+    left, right = crossed(left, right)
+    left, right = crossed(left, right)
+    left, right = crossed(left, right)
+    left, right = crossed(left, right)
+    left, right = crossed(left, right)
+    first = joined(left, right)
+    left, right = crossed(left, right)
+    left, right = crossed(left, right)
+    return first, joined(left, right)
 
 
 def independent_axis(key: int, index: int, axis: int) -> float:
