@@ -2,7 +2,7 @@
 
 Plain Python integers have no width and numba's have no masks, so code on words is written with
 `u64`, `u32`, `reverse32`, `word_of`, `double_of`, `number_of`: ordinary functions here, machine
-instructions in a kernel (`compiled_twins`). So is `larger`, of numbers.
+instructions in a kernel (`compiled_twins`). So is `smaller`, of numbers.
 """
 
 from __future__ import annotations
@@ -52,12 +52,12 @@ def double_at(address: float, index: int) -> float:
     return float(ctypes.c_double.from_address(int(address) + 8 * index).value)
 
 
-def larger(a: float, b: float) -> float:
-    """The larger of two numbers; a kernel takes it that neither is NaN.
+def smaller(a: float, b: float) -> float:
+    """The smaller of two numbers; a kernel takes it that neither is NaN.
 
-    So that a running maximum is one instruction: a comparison that heeds NaN does not vectorise.
+    So that a running minimum is one instruction: a comparison that heeds NaN does not vectorise.
     """
-    return a if a > b else b
+    return a if a < b else b
 
 
 def mix64(z: int) -> int:
@@ -119,10 +119,10 @@ def compiled_twins() -> dict[Callable[..., Any], Any]:
         return numba.int64(numba.float64), generate
 
     @intrinsic
-    def maximum(typing: Any, a: Any, b: Any) -> Any:
+    def minimum(typing: Any, a: Any, b: Any) -> Any:
         def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            above = builder.fcmp_ordered(">", *args, flags=("nnan", "nsz"))
-            return builder.select(above, *args, flags=("nnan", "nsz"))
+            below = builder.fcmp_ordered("<", *args, flags=("nnan", "nsz"))
+            return builder.select(below, *args, flags=("nnan", "nsz"))
 
         return numba.float64(numba.float64, numba.float64), generate
 
@@ -137,7 +137,7 @@ def compiled_twins() -> dict[Callable[..., Any], Any]:
 
     return {
         double_at: load,
-        larger: maximum,
+        smaller: minimum,
         u64: numba.uint64,
         u32: numba.uint32,
         reverse32: reverse,

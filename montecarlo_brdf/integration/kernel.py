@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from montecarlo_brdf.bits import larger, u64
+from montecarlo_brdf.bits import smaller, u64
 from montecarlo_brdf.sampling.points import NONE, replicate_key
 
 BLOCK = 512
@@ -107,24 +107,24 @@ def store(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
 def merge_block(x: Any, start: int, m: int, out: Any, at: int) -> None:
     """Merge x[start : start + m] into the state at out[at].
 
-    Deviations are taken from the first value, so a constant has exactly zero spread; blocks merge
-    by Chan, Golub, LeVeque 1979, which stays exact where the one-pass formula cancels.
+    Values are taken from the first one, so a constant has exactly zero spread (and not the first
+    from them: an operand in memory is free only as the one taken away). Blocks merge by Chan,
+    Golub, LeVeque 1979, which stays exact where the one-pass formula cancels.
     """
     origin = x[start]
     total = 0.0
     squares = 0.0
-    rise = 0.0  # of the largest value above the first
+    least = 0.0
     for j in range(m):
-        d = x[start + j] - origin
+        d = origin - x[start + j]
         total += d
         squares += d * d
-        rise = larger(d, rise)
+        least = smaller(d, least)
     count = out[at]
     merged = count + m
-    shift = origin + total / m - out[at + 1]
+    shift = origin - total / m - out[at + 1]
     out[at] = merged
     out[at + 1] += shift * (m / merged)
     out[at + 2] += (squares - total * total / m) + shift * (shift * (count * m / merged))
-    largest = origin + rise
+    largest = origin - least
     out[at + 3] = out[at + 3] if largest <= out[at + 3] else largest
-

@@ -66,7 +66,7 @@ def test_words() -> None:
         assert bits.double_of(bits.word_of(x)) == x
     ordered = [0.0, 5e-324, 1e-310, 0.5, 1.0, 1e300, float("inf")]
     assert sorted(ordered, key=bits.word_of) == ordered
-    assert bits.larger(-1.0, 2.0) == bits.larger(2.0, -1.0) == bits.larger(2.0, 2.0) == 2.0
+    assert bits.smaller(-1.0, 2.0) == bits.smaller(2.0, -1.0) == bits.smaller(-1.0, -1.0) == -1.0
 
 
 def test_unit_fills_the_half_open_interval() -> None:
