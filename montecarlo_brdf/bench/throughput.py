@@ -16,7 +16,7 @@ from montecarlo_brdf.loading import load
 from montecarlo_brdf.sampling.keys import NONE
 from montecarlo_brdf.vectors import from_degrees
 
-N = 1 << 16
+N = 1 << 18  # so many that what a call costs beside its samples does not show
 MODELS = ("lambert", "oren_nayar", "eon", "phong", "blinn_phong", "ggx", "beckmann")
 
 
