@@ -170,4 +170,4 @@ def slope_albedo(
             i = here.stop
         return Sum(sum(s.value for s in each), sum(s.magnitude for s in each))
 
-    return converge(rule)
+    return converge(rule, agreements=2 if kinks.curves or kinks.breaks else 1)

@@ -97,25 +97,33 @@ ROUNDING = 64.0 * EPSILON  # relative: some fifty operations per term, some of t
 
 
 def converge(
-    rule: Callable[[float], Sum], rounds: int = 8, enough: float = ENOUGH
+    rule: Callable[[float], Sum], rounds: int = 8, enough: float = ENOUGH, agreements: int = 1
 ) -> tuple[float, float]:
-    """Refine rule(size) until two sizes agree; return the finer value and a bound on its error.
+    """Refine rule(size) until sizes agree; return the finest value and a bound on its error.
 
     The difference bounds the error of the finer set where each refinement at least halves it, as
     the geometric rules here do. Where the differences shrink more slowly, with a ratio r of one to
-    the one before, the rest of that series r/(1-r) is what is still to come.
+    the one before, the rest of that series r/(1-r) is what is still to come. Where the integrand
+    has kinks, errors change sign as they please and two sets may agree by chance: two agreements
+    are asked there (one, if it is to rounding), and the larger difference is the bound, with room
+    for chance.
     """
-    size, coarse, before, trust = 1.0, rule(1.0), 0.0, 1.0
+    floor = ROUNDING * (8.0 if agreements > 1 else 1.0)
+    size, coarse, before, trust, agreed = 1.0, rule(1.0), 0.0, 1.0, 0.0
     for _ in range(rounds):
         size *= GROWTH
         fine = rule(size)
         difference = abs(fine.value - coarse.value)
         if difference <= enough * fine.magnitude:
-            break
-        ratio = min(difference / before, 0.95) if before else 0.5
-        trust = max(1.0, ratio / (1.0 - ratio))
+            agreements -= 1 if difference > ROUNDING * fine.magnitude else 2
+            agreed = max(agreed, difference)
+            if agreements <= 0:
+                break
+        else:
+            ratio = min(difference / before, 0.95) if before else 0.5
+            trust = max(1.0, ratio / (1.0 - ratio))
         coarse, before = fine, difference
-    return fine.value, trust * difference + ROUNDING * fine.magnitude
+    return fine.value, trust * max(agreed, difference) + floor * fine.magnitude
 
 
 def independent(result: tuple[float, float], source: str) -> Truth:

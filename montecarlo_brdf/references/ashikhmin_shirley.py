@@ -48,5 +48,8 @@ def albedo(cos_theta_o: float, *, rd: float, rs: float, n: float) -> Truth:
 
 def bihemispherical(*, rd: float, rs: float, n: float) -> Truth:
     width = math.sqrt(2.0 / (n + 2.0))
-    specular = hemispherical_mean(lambda mu: _specular(mu, rs, n), width)
+    # mu_i = mu_o cuts the lobe in half but within `width` of the normal, where 1 - mu = width^2/2
+    closer = [1.0 - 4.0 * width * width * 16.0**k for k in range(16)]
+    breaks = sorted(mu for mu in closer if mu > 0.75)
+    specular = hemispherical_mean(lambda mu: _specular(mu, rs, n), width, (*breaks, 1.0))
     return _sum(23.0 / 28.0 * rd * (1.0 - rs), specular)
