@@ -5,6 +5,7 @@ import json
 import math
 import os
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Callable
@@ -232,3 +233,10 @@ def test_any_assignment_is_a_parameter_set_or_a_sentence(text: str) -> None:
 def test_main_ends_the_process_with_the_code(process: Command) -> None:
     assert process("furnace", "--model", "lamber").code == 2
     assert process("furnace", "--model", "lambert_unnormalised", "-p", "c=0.5", *QUICK).code == 1
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell that closes streams")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-"])
+def test_closed_streams_are_no_error(closed: str) -> None:
+    command = f"{shlex.quote(sys.executable)} -m montecarlo_brdf models {closed}"
+    assert subprocess.run(["sh", "-c", command], capture_output=True).returncode == 0

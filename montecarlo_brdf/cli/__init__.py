@@ -82,7 +82,7 @@ def main() -> NoReturn:
 def _leave_at_once(code: int) -> NoReturn:
     """End a process without taking it down: of a warm run that is a tenth of the time, of a
     compiler a second or two, and a model that nobody waits for may still run."""
-    for stream in (sys.stdout, sys.stderr):
+    for stream in filter(None, (sys.stdout, sys.stderr)):
         with contextlib.suppress(OSError):
             stream.flush()
     os._exit(code)
