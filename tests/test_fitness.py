@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
+from conftest import Outcome
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.checks.fitness import Sight, reason_unfit
 from montecarlo_brdf.statistics import Estimate
+
+Command = Callable[..., Outcome]
 
 
 def nothing(samples: int = 16384) -> Estimate:
@@ -45,3 +50,19 @@ def test_a_narrow_lobe_on_a_bright_base_needs_more_samples(sampler: str) -> None
         few = f"few samples make the spread under {sampler} sampling: needs about"
         assert row["not_used"].startswith(few) == (verdict == "unfit")
         assert (row["verdict"], finding.verdict) == (verdict, "pass")
+
+
+def test_where_f_may_be_negative_a_small_mean_is_no_lack_of_samples() -> None:
+    """Its values cancel; that few of them make the spread is still looked for."""
+    e = Estimate(0.01, 1e-5, 1 << 20, (0.01,) * 16, 1.0, 3.0)
+    plain, signed = Sight(1.0, 1.0, 0.0), Sight(1.0, 1.0, 0.0, signed=True)
+    assert str(reason_unfit("own", e, plain, None)).startswith("105 effective samples")
+    assert reason_unfit("own", e, signed, None) is None
+    spike = e._replace(largest=1e3)
+    assert str(reason_unfit("own", spike, signed, None)).startswith("few samples make the spread")
+
+
+def test_the_radiance_of_a_model_with_negative_values_is_decided(cli: Command) -> None:
+    """Its values cancel to a hundredth at 80 degrees under the tilted sky."""
+    command = ["run", "--model", "phong_unclamped", "--check", "radiance", "--theta-o", 80]
+    assert cli(*command).code == 0

@@ -46,6 +46,7 @@ class Sight(NamedTuple):
     highest: float  # largest f found where a lobe may be, 1/sr
     brightest: float  # the same of f cos
     exponent: float  # s in f ~ mu_i^-s near the horizon
+    signed: bool = False  # whether f may be negative: its mean then is small for no lack of samples
 
     def largest(self, sampler: str) -> float:
         """The largest f cos/pdf to be expected."""
@@ -55,7 +56,8 @@ class Sight(NamedTuple):
 def look(model: Model, ready: Any, fixed: Vec) -> Sight:
     """Probe f around the mirror direction and at the horizon."""
     exponent = probe.horizon_exponent(model, ready, fixed)
-    return Sight(*probe.highest(model, ready, fixed), exponent)
+    signed = "positivity" in model.disclaims
+    return Sight(*probe.highest(model, ready, fixed), exponent, signed)
 
 
 def moment_is_finite(moment: int, sampler: str, exponent: float) -> bool:
@@ -74,7 +76,7 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
     if not e.mean > 0.0:
         return None
     if sampler not in SCALE:
-        return _few(sampler, e, e.second_moment)
+        return _few(sampler, e, e.second_moment, signed=sight.signed)
     if not moment_is_finite(2, sampler, sight.exponent):
         grows = f"f grows like mu^-{sight.exponent:.2f}"
         return _unfit(f"infinite variance under {sampler} sampling: {grows}", math.inf)
@@ -82,15 +84,25 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
         useless = "its error bar can not be trusted"
         return _unfit(f"infinite fourth moment under {sampler} sampling: {useless}", math.inf)
     expected = sight.largest(sampler)
-    if expected > LARGEST_SHARE * e.samples * e.mean:
+    if expected > LARGEST_SHARE * e.samples * e.mean and not sight.signed:
         need = expected / (LARGEST_SHARE * e.mean)
         return _unfit(f"a lobe that {sampler} sampling hardly hits", need)
-    return _few(sampler, e, max(e.second_moment, second.mean if second else 0.0), expected)
+    squares = max(e.second_moment, second.mean if second else 0.0)
+    return _few(sampler, e, squares, expected, sight.signed)
 
 
-def _few(sampler: str, e: Estimate, squares: float, highest: float = 0.0) -> str | None:
+def _few(
+    sampler: str, e: Estimate, squares: float, highest: float = 0.0, signed: bool = False
+) -> str | None:
     """Why so few samples carry the mean, or its spread, that its error bar must not be believed,
     or None; squares: E[x^2]; highest: the largest x expected."""
+    return (None if signed else _few_carry(sampler, e, squares)) or _few_spread(
+        sampler, e, squares, highest
+    )
+
+
+def _few_carry(sampler: str, e: Estimate, squares: float) -> str | None:
+    """The mean of what is never negative."""
     if e.largest > LARGEST_SHARE * e.samples * e.mean:
         share = e.largest / (e.samples * e.mean)
         return f"one sample holds {share:.0%} of the total under {sampler} sampling"
@@ -98,6 +110,11 @@ def _few(sampler: str, e: Estimate, squares: float, highest: float = 0.0) -> str
     if effective < FEWEST:
         need = e.samples * FEWEST / effective
         return _unfit(f"{effective:.0f} effective samples under {sampler} sampling", need)
+    return None
+
+
+def _few_spread(sampler: str, e: Estimate, squares: float, highest: float) -> str | None:
+    """The spread."""
     most = max(e.largest, highest) - e.mean
     spread = e.samples * (squares - e.mean**2)
     if most > SMALLEST * e.mean and most**2 > LARGEST_SHARE * spread:
