@@ -26,6 +26,7 @@ from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.claim import MeanClaim, Measurement
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.report.judge import decide
+from montecarlo_brdf.report.mean import OF_F_ALONE, OF_SAME_F
 from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "resolves.json"
@@ -54,10 +55,15 @@ def claims(name: str, parameters: dict[str, float]) -> Iterator[MeanClaim]:
 
 
 def scaled(claim: MeanClaim, factor: float) -> MeanClaim:
-    """The claim about a model all of whose values (and error bars) are `factor` times as large."""
+    """The claim about a model all of whose values (and error bars) are `factor` times as large;
+    where a quadrature says what f should give, those that its sampler draws: what f alone gives
+    refutes the quadrature, not the model."""
+    same_f = claim.expected and claim.expected.kind.startswith(OF_SAME_F)
 
     def measure(plan: Plan) -> list[Measurement]:
-        return [_scaled(m, factor) for m in claim.measure(plan)]
+        found = claim.measure(plan)
+        keep = [bool(same_f and m.estimator in OF_F_ALONE) for m in found]
+        return [m if k else _scaled(m, factor) for m, k in zip(found, keep, strict=True)]
 
     return replace(claim, measure=measure, fallback=None)
 
