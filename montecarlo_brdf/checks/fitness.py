@@ -96,9 +96,9 @@ def _few(
 ) -> str | None:
     """Why so few samples carry the mean, or its spread, that its error bar must not be believed,
     or None; squares: E[x^2]; highest: the largest x expected."""
-    return (None if signed else _few_carry(sampler, e, squares)) or _few_spread(
-        sampler, e, squares, highest
-    )
+    if not signed and (reason := _few_carry(sampler, e, squares)):
+        return reason
+    return _few_spread(sampler, e, squares, highest)
 
 
 def _few_carry(sampler: str, e: Estimate, squares: float) -> str | None:
