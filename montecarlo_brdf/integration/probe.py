@@ -18,6 +18,9 @@ from montecarlo_brdf.vectors import Vec, from_degrees, mirrored
 #: Ordinary directions and numbers: any of them must work for any model.
 DIRECTIONS = (from_degrees(20.0, 0.0), from_degrees(50.0, 130.0), from_degrees(70.0, 250.0))
 UNIFORMS = (0.3, 0.6, 0.4)
+#: cells of a number towards each of its ends, and values of the other number in each
+OCTAVES, ACROSS = 24, 8
+GOLDEN = 0.6180339887498949  # the fraction of the golden ratio: its multiples never cluster
 
 
 def check(model: Model, p: Any) -> None:
@@ -108,6 +111,30 @@ def horizon_exponent(model: Model, ready: Any, wo: Vec) -> float:
         if a > 0.0 and b > a and math.isfinite(b):
             worst = max(worst, math.log(b / a) / math.log(100.0))
     return worst
+
+
+def rejected(model: Model, ready: Any, wo: Vec) -> float:
+    """The share of draws of the model's sampler that lie below the horizon, to a factor of 2.
+
+    Rare ones come from the ends of u[0] or u[1], so cells that halve towards both ends find shares
+    down to 2^-OCTAVES, which a million random numbers may never meet. 0 without a sampler.
+    """
+    if model.sample is None:
+        return 0.0
+    found = [0.0, 0.0]
+    for k, (mass, t) in enumerate(_graded()):
+        for j in range(ACROSS):
+            s, third = (j + 0.5) / ACROSS, math.modf(0.5 + (ACROSS * k + j) * GOLDEN)[0]
+            for axis, u in enumerate(((t, s, third), (s, t, third))):
+                w = _called(model, "sample", model.sample, wo, u, ready)
+                found[axis] += mass / ACROSS * (isinstance(w, tuple) and not w[2] > 0.0)
+    return max(found)
+
+
+def _graded() -> list[tuple[float, float]]:
+    """The mass and the middle of cells of [0, 1) that halve towards both ends."""
+    cells = [(0.25 * 0.5**k, 0.375 * 0.5**k) for k in range(OCTAVES)]
+    return [*cells, *((mass, 1.0 - t) for mass, t in cells)]
 
 
 def _at_cosine(mu: float, phi: float) -> Vec:
