@@ -258,6 +258,18 @@ def test_resolves_is_a_deviation_that_the_last_look_would_have_failed() -> None:
             assert judged(claim(steady(1, 1)), m, level)[0].verdict == verdict
 
 
+@pytest.mark.parametrize(("kind", "by"), [("independent", "cosine"), ("quadrature of it", "own")])
+def test_what_is_resolved_of_the_same_f_is_what_the_sampler_resolves(kind: str, by: str) -> None:
+    """A deviation of the others would refute the quadrature, not the model."""
+    found = {}
+    for name, error in (("cosine", 1e-6), ("own", 1e-5)):
+        found[name] = decide(claim(steady(1.0, error, name=name)), PLAN, level=5e-7).resolves
+    measure = both(steady(1.0, 1e-6, name="cosine"), steady(1.0, 1e-5, name="own"))
+    expected = Reference(1.0, 0.0, kind, "")
+    finding = decide(replace(claim(measure), expected=expected), PLAN, level=1e-6)
+    assert finding.resolves == found[by]
+
+
 def report(*verdicts: str) -> Report:
     findings = [Finding("A", {}, v, level=1e-9) for v in verdicts]
     return Report("furnace", {}, [Result("m", {}, "furnace", findings)])

@@ -42,12 +42,25 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
     other: if they agree, it has missed something.
     """
     opinions, looked = _looked_at(claim, plan, level)
-    if overall(opinions) == "fail" and claim.expected and claim.expected.kind.startswith(OF_SAME_F):
+    if overall(opinions) == "fail" and _of_same_f(claim):
         alone = replace(claim, expected=None)
         found, further = _looked_at(alone, plan, level)
         if _missed(opinions) or overall(found) == "pass":
             claim, opinions, looked = alone, found, further
     return _finding(claim, opinions, level, (looked, plan.samples), known)
+
+
+def _of_same_f(claim: MeanClaim) -> bool:
+    """Whether the expected value is a quadrature of the f that is sampled."""
+    return claim.expected is not None and claim.expected.kind.startswith(OF_SAME_F)
+
+
+def _resolving(claim: MeanClaim, opinions: list[Opinion]) -> Opinion:
+    """The opinion that says which deviation would be caught: the one shown, but where a quadrature
+    says the same f that of the model's own draws, as others refute the quadrature."""
+    own = [o for o in opinions if o.measurement.estimator not in OF_F_ALONE]
+    drawn = [o for o in own if not o.measurement.unfit and o.measurement.bound is None]
+    return telling(drawn if drawn and _of_same_f(claim) else opinions)
 
 
 def _missed(opinions: list[Opinion]) -> bool:
@@ -144,7 +157,7 @@ def _finding(
         stderr=e.stderr,
         expected=reference.pop("value", None),
         tolerance=claim.tolerance,
-        resolves=resolves(claim, shown, last, looked[0] / looked[1]),
+        resolves=resolves(claim, _resolving(claim, opinions), last, looked[0] / looked[1]),
         level=level,
         samples=e.samples,
         estimator=shown.measurement.estimator,
