@@ -26,7 +26,7 @@ from environment import describe
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading, references
 from montecarlo_brdf.checks import fitness
-from montecarlo_brdf.checks.fitness import reason_unfit
+from montecarlo_brdf.checks.fitness import measured
 from montecarlo_brdf.integration import methods, work
 from montecarlo_brdf.integration.ascent import Ascent
 from montecarlo_brdf.integration.compiled import compiled
@@ -84,8 +84,11 @@ def coverage(
     if demanded > size:
         return f"unfit: a probe demands {demanded:.0f}"
     found, sampler = drawn(setting, wo, size, seeds), setting.method.sampler
-    if sampler in ("own", "cosine") and (why := reason_unfit(sampler, found[0], sight, None)):
-        return f"unfit: {why}"
+    if sampler in ("own", "cosine"):
+        seen = [measured(sampler, e, sight) for e in found]
+        if seen[0].unfit:
+            return f"unfit: {seen[0].unfit}"
+        found = [m.estimate for m in seen]
     return sum(abs(e.mean - truth.value) <= e.half_width(0.05) + truth.error for e in found) / seeds
 
 

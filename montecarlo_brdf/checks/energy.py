@@ -103,7 +103,4 @@ def _reverse(model: Model, p: Any, wi: Vec, plan: Plan) -> list[Measurement]:
     names = [integrand_name(model, "reverse", s) for s in chosen]
     row = estimates(model, p, wi, names, plan, (NAME, "reverse"))[0]
     sight = fitness.look(model, model.prepared(p), wi)
-    return [
-        Measurement(s, e, fitness.reason_unfit(s, e, sight, None))
-        for s, e in zip(chosen, row, strict=True)
-    ]
+    return [fitness.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from montecarlo_brdf.checks.claim import Measurement
 from montecarlo_brdf.integration import probe
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate
@@ -22,10 +23,8 @@ FEWEST = 1000.0
 LARGEST_SHARE = 0.02
 #: Deviations below this, relative to the mean, are not looked at: rounding is of their order.
 SMALLEST = 1e-6
-#: Rejected draws, expected among the samples, below which their number tells nothing of their
-#: share; which matters if the mean without them is off by more than SMALL_BIAS error bars. (With as
-#: much a 95 % interval holds the truth in 94.9 % of cases.)
-FEWEST_REJECTED, SMALL_BIAS = 16.0, 0.1
+#: Rejected draws, expected among the samples, from which their number tells their share.
+FEWEST_REJECTED = 16.0
 #: mu^c/pdf for these densities
 SCALE = {"uniform": 6.283185307179586, "cosine": 3.141592653589793}
 #: c in pdf ~ mu^c near the horizon
@@ -72,18 +71,37 @@ def moment_is_finite(moment: int, sampler: str, exponent: float) -> bool:
     return moment * (exponent - 1.0 + c) < 1.0 + c - 1e-3
 
 
-def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | None) -> str | None:
-    """Why the estimate by `sampler` must not be believed, or None.
+def measured(
+    sampler: str, e: Estimate, sight: Sight, second: Estimate | None = None
+) -> Measurement:
+    """What an estimator says, and why it must not be believed if so.
 
     `second` estimates E[x^2] of this sampler from draws by the model's own.
     """
+    if sampler not in SCALE:
+        e = heeding_rejected(e, sight.rejected)
+    return Measurement(sampler, e, reason_unfit(sampler, e, sight, second))
+
+
+def heeding_rejected(e: Estimate, share: float) -> Estimate:
+    """The estimate with no smaller error than rejected draws make that are too few to be counted.
+
+    A narrow lobe gives equal weights and, once in 10^3 to 10^6 draws, none: until one of these is
+    drawn all replicates agree on a mean that is too large by their share.
+    """
+    if share == 0.0 or share * e.samples >= FEWEST_REJECTED:
+        return e
+    return e._replace(stderr=max(e.stderr, share * abs(e.mean)))
+
+
+def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | None) -> str | None:
+    """Why the estimate by `sampler` must not be believed, or None; arguments as in `measured`."""
     if e.mean == 0.0 and sight.highest > 0.0 and sampler in SCALE:
         return f"a lobe that {sampler} sampling did not hit once in {e.samples} samples"
     if not e.mean > 0.0:
         return None
     if sampler not in SCALE:
-        why = _few(sampler, e, e.second_moment, signed=sight.signed)
-        return why or _few_rejected(sampler, e, sight.rejected)
+        return _few(sampler, e, e.second_moment, signed=sight.signed)
     if not moment_is_finite(2, sampler, sight.exponent):
         grows = f"f grows like mu^-{sight.exponent:.2f}"
         return _unfit(f"infinite variance under {sampler} sampling: {grows}", math.inf)
@@ -117,14 +135,6 @@ def _few_carry(sampler: str, e: Estimate, squares: float) -> str | None:
     if effective < FEWEST:
         need = e.samples * FEWEST / effective
         return _unfit(f"{effective:.0f} effective samples under {sampler} sampling", need)
-    return None
-
-
-def _few_rejected(sampler: str, e: Estimate, share: float) -> str | None:
-    """Rejected draws: without any, or with one, the others may all agree on a mean that is off."""
-    if share * e.samples < FEWEST_REJECTED and share * e.mean > SMALL_BIAS * e.stderr:
-        need = FEWEST_REJECTED / share
-        return _unfit(f"few draws by {sampler} sampling are rejected ({share:.0e})", need)
     return None
 
 

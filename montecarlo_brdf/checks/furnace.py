@@ -189,7 +189,7 @@ def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:
         seconds = dict(zip(blind, row[len(chosen) :], strict=False))
         result.append(
             [
-                Measurement(s, e, fitness.reason_unfit(s, e, sight, seconds.get(s)))
+                fitness.measured(s, e, sight, seconds.get(s))
                 for s, e in zip(chosen, row, strict=False)
             ]
         )

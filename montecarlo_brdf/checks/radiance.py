@@ -119,7 +119,4 @@ def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measuremen
     subject = subject_of(model, case.one, SKY=either_sky)
     row = evaluate(subject, (*wo, WHICH[name]), functions, plan, (name, NAME))[0]
     sight = fitness.look(model, model.prepared(case.one), wo)
-    return [
-        Measurement(s, e, fitness.reason_unfit(s, e, sight, None))
-        for s, e in zip(chosen, row, strict=True)
-    ]
+    return [fitness.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]
