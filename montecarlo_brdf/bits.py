@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import Any
 
 GOLDEN = 0x9E3779B97F4A7C15  # 2^64 / golden ratio, odd: steps that never repeat within 2^64
+LOW = 0xFFFFFFFF  # the lower half of a word
 ROUNDER = 6755399441055744.0  # 1.5 * 2^52: adding it rounds to an integer in the low bits
 ROUNDER_WORD = 0x4338000000000000
 

@@ -10,8 +10,8 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from montecarlo_brdf.sampling.charts import Row
 from montecarlo_brdf.sampling.warps import random_hemisphere, random_hemisphere_cosine
-from montecarlo_brdf.vectors import Vec
 
 F: Any = None
 SAMPLE: Any = None
@@ -21,25 +21,27 @@ PI = math.pi
 TWO_PI = 2.0 * math.pi
 
 
-def uniform_direction(u: Any) -> Vec:
-    """The direction of a point, uniform over the hemisphere."""
-    return random_hemisphere(u[0], u[1])
+def uniform_direction(u: Any, fixed: Any) -> Row:
+    """The direction of a point, uniform over the hemisphere, and 1/pdf."""
+    x, y, z = random_hemisphere(u[0], u[1])
+    return x, y, z, TWO_PI, 0.0, 0.0, 0.0, 0.0
 
 
-def cosine_direction(u: Any) -> Vec:
-    """The direction of a point, cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
+def cosine_direction(u: Any, fixed: Any) -> Row:
+    """The direction of a point, cosine-weighted, and cos/pdf."""
+    x, y, z = random_hemisphere_cosine(u[0], u[1])
+    return x, y, z, PI, 0.0, 0.0, 0.0, 0.0
 
 
 def albedo_uniform(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wi uniform over the hemisphere: E = A(wo)."""
-    wi = uniform_direction(u)
+    wi = uniform_direction(u, fixed)[:3]
     return F(fixed[:3], wi, p) * wi[2] * TWO_PI
 
 
 def albedo_cosine(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wi cosine-weighted: E = A(wo), the cosine cancels."""
-    wi = cosine_direction(u)
+    wi = cosine_direction(u, fixed)[:3]
     return F(fixed[:3], wi, p) * PI
 
 
@@ -71,13 +73,13 @@ def albedo_weighted(u: Any, fixed: Any, p: Any) -> float:
 
 def reverse_uniform(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wo uniform over the hemisphere: E = R(wi)."""
-    wo = uniform_direction(u)
+    wo = uniform_direction(u, fixed)[:3]
     return F(wo, fixed[:3], p) * wo[2] * TWO_PI
 
 
 def reverse_cosine(u: Any, fixed: Any, p: Any) -> float:
     """f cos / pdf with wo cosine-weighted: E = R(wi)."""
-    wo = cosine_direction(u)
+    wo = cosine_direction(u, fixed)[:3]
     return F(wo, fixed[:3], p) * PI
 
 
@@ -133,12 +135,12 @@ def second_cosine(u: Any, fixed: Any, p: Any) -> float:
 
 def hemisphere_uniform(u: Any, fixed: Any, p: Any) -> float:
     """g / pdf with w uniform: E = the integral of g over the hemisphere."""
-    return F(uniform_direction(u), p) * TWO_PI
+    return F(uniform_direction(u, fixed)[:3], p) * TWO_PI
 
 
 def hemisphere_cosine(u: Any, fixed: Any, p: Any) -> float:
     """g / pdf with w cosine-weighted: E = the integral of g over the hemisphere."""
-    w = cosine_direction(u)
+    w = cosine_direction(u, fixed)[:3]
     return F(w, p) * PI / w[2]
 
 
@@ -155,13 +157,13 @@ SKY: Any = None  # SKY(w, which): one kernel serves several skies, told apart by
 
 def radiance_uniform(u: Any, fixed: Any, p: Any) -> float:
     """f L cos / pdf with wi uniform: E = reflected radiance under the light SKY."""
-    wi = uniform_direction(u)
+    wi = uniform_direction(u, fixed)[:3]
     return F(fixed[:3], wi, p) * wi[2] * SKY(wi, fixed[3]) * TWO_PI
 
 
 def radiance_cosine(u: Any, fixed: Any, p: Any) -> float:
     """f L cos / pdf with wi cosine-weighted."""
-    wi = cosine_direction(u)
+    wi = cosine_direction(u, fixed)[:3]
     return F(fixed[:3], wi, p) * SKY(wi, fixed[3]) * PI
 
 
@@ -183,22 +185,23 @@ def radiance_weighted(u: Any, fixed: Any, p: Any) -> float:
     return wi[3] * SKY(wi[:3], fixed[3])
 
 
-#: integrands of a direction alone: a kernel may make directions first, and give them for points
-DIRECTED: dict[Any, Callable[[Any], Vec]] = {
-    albedo_uniform: uniform_direction,
-    albedo_cosine: cosine_direction,
-    reverse_uniform: uniform_direction,
-    reverse_cosine: cosine_direction,
-    hemisphere_uniform: uniform_direction,
-    hemisphere_cosine: cosine_direction,
-    radiance_uniform: uniform_direction,
-    radiance_cosine: cosine_direction,
+#: The steps from a point to the direction that alone these integrands read. A kernel takes each for
+#: a whole block of points; then `as_made` stands for it in the integrand.
+STEPS: dict[Any, tuple[Callable[[Any, Any], Row], ...]] = {
+    albedo_uniform: (uniform_direction,),
+    albedo_cosine: (cosine_direction,),
+    reverse_uniform: (uniform_direction,),
+    reverse_cosine: (cosine_direction,),
+    hemisphere_uniform: (uniform_direction,),
+    hemisphere_cosine: (cosine_direction,),
+    radiance_uniform: (uniform_direction,),
+    radiance_cosine: (cosine_direction,),
 }
 
 
-def as_made(u: Any) -> Any:
-    """In place of a direction's function where the point is the direction."""
-    return u[0], u[1], u[2]
+def as_made(u: Any, fixed: Any) -> Any:
+    """In place of a step that was taken before, or is not needed."""
+    return u
 
 
 #: integrands that use the coordinates 0, 1 and 4 of a point only

@@ -6,8 +6,8 @@ blocks of fixed size that are merged in fixed order, so that results do not depe
 is cut into calls or on the number of threads. Points of a block are made before integrands are
 evaluated: in one loop their dependent operations add up to a chain that a processor with few vector
 registers waits for (a third of the time of GGX, half of Beckmann's). Where all integrands want the
-same direction of a point, TURN makes it there too. Coordinates that no integrand reads are never
-made.
+same direction of a point, STEP and NEXT make it there too, each in a loop of its own. Coordinates
+that no integrand reads are never made.
 """
 from __future__ import annotations
 
@@ -26,8 +26,12 @@ QUERY = 4
 STATE = 4
 
 POINTS: Any = None
-TURN: Any = None
-TURNED = 1
+STEP_NAMES = ("ONE", "TWO", "THREE")
+ONE: Any = None
+TWO: Any = None
+THREE: Any = None
+STEPS = 1
+STEP: Any = None
 SHAPE: Any = None
 STORE: Any = None
 FIRST: Any = None
@@ -51,8 +55,8 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
     shape = SHAPE(ints)
     query = (reals[0], reals[1], reals[2], reals[3])
     parameters = PARAMETERS(reals)
-    u0, u1, u2, u3, u4 = ROW(), ROW(), ROW(), ROW(), ROW()
-    w0, w1, w2 = ROW(), ROW(), ROW()
+    u = (ROW(), ROW(), ROW(), ROW(), ROW(), ROW(), ROW(), ROW())
+    w = (ROW(), ROW(), ROW(), ROW(), ROW(), ROW(), ROW(), ROW())
     x = BUFFER()
     stop = ints[3] + ints[4]
     for r in range(ints[2]):
@@ -61,20 +65,37 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
         while i < stop:
             m = BLOCK if stop - i > BLOCK else stop - i
             for j in range(m):
-                u0[j], u1[j], u2[j], u3[j], u4[j] = POINTS(key, u64(i + j), shape)
-            if TURNED:
-                for j in range(m):
-                    w0[j], w1[j], w2[j] = TURN((u0[j], u1[j]))
+                u[0][j], u[1][j], u[2][j], u[3][j], u[4][j] = POINTS(key, u64(i + j), shape)
+            if STEPS > 0:
+                ONE(u, w, m, query)
+            if STEPS > 1:
+                TWO(w, w, m, query)
+            if STEPS > 2:
+                THREE(w, w, m, query)
             for j in range(m):
-                if TURNED:
-                    u = (w0[j], w1[j], w2[j], 0.0, 0.0)
-                else:
-                    u = (u0[j], u1[j], u2[j], u3[j], u4[j])
+                point = row(w, j) if STEPS > 0 else row(u, j)
                 for k in range(CHANNELS):
-                    STORE(u, query, parameters[k], x, k * SLOTS * ROOM + j)
+                    STORE(point, query, parameters[k], x, k * SLOTS * ROOM + j)
             for k in range(CHANNELS * SLOTS):
                 merge_block(x, k * ROOM, m, out, (r * CHANNELS * SLOTS + k) * STATE)
             i += m
+
+
+def row(rows: Any, j: int) -> Any:
+    """The numbers of point j."""
+    return (
+        rows[0][j], rows[1][j], rows[2][j], rows[3][j],
+        rows[4][j], rows[5][j], rows[6][j], rows[7][j],
+    )  # fmt: skip
+
+
+def advance(source: Any, target: Any, m: int, query: Any) -> None:
+    """Take one step for all points of a block."""
+    for j in range(m):
+        (
+            target[0][j], target[1][j], target[2][j], target[3][j],
+            target[4][j], target[5][j], target[6][j], target[7][j],
+        ) = STEP(row(source, j), query)  # fmt: skip
 
 
 def shaped(ints: Any) -> Any:

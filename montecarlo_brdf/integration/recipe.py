@@ -4,7 +4,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.integration import integrands, kernel, parameters
+from montecarlo_brdf.integration import charted, integrands, kernel, parameters
 from montecarlo_brdf.integration.build import buffer, fingerprint
 from montecarlo_brdf.integration.reach import takes_more
 from montecarlo_brdf.integration.specialise import Specialiser
@@ -12,6 +12,7 @@ from montecarlo_brdf.sampling import points as point_sets
 
 Function = Callable[..., Any]
 
+STEPS = {**integrands.STEPS, **charted.STEPS}
 #: What a kernel calls its integrands.
 NAMES = ("FIRST", "SECOND", "THIRD", "FOURTH", "FIFTH")
 
@@ -44,15 +45,14 @@ class Recipe(NamedTuple):
         found: Function = getattr(point_sets, self.points)
         return found
 
-    def direction(self) -> Function | None:
-        """What makes a point a direction, if all integrands want the same of it and no more."""
-        first, *others = {integrands.DIRECTED.get(i) for i in self.integrands}
-        return None if others else first
+    def steps(self) -> tuple[Function, ...]:
+        """From points to directions, if all integrands want the same of them and no more."""
+        first, *others = {STEPS.get(i, ()) for i in self.integrands}
+        return () if others else first
 
     def bound(self) -> Mapping[str, Function]:
         """What names in the integrands stand for."""
-        made = self.direction()
-        return {**self.functions, made.__name__: integrands.as_made} if made else self.functions
+        return {**self.functions, **{step.__name__: integrands.as_made for step in self.steps()}}
 
     def _shape(self) -> Function:
         return kernel.shaped if self.points in point_sets.SHAPES else kernel.shapeless
@@ -60,7 +60,7 @@ class Recipe(NamedTuple):
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
         content = fingerprint(self.layout)
-        content.add((self.point_set(), self._shape(), self.direction()))
+        content.add((self.point_set(), self._shape(), self.steps()))
         for integrand in self.integrands:
             if isinstance(integrand, Wrapped):
                 content.add(integrand.outer)
@@ -79,8 +79,8 @@ class Recipe(NamedTuple):
         slots = [self._bound(special, i) for i in self.integrands]
         bound = {
             "POINTS": self.point_set(),
-            "TURN": self.direction() or integrands.cosine_direction,
-            "TURNED": self.direction() is not None,
+            **dict(zip(kernel.STEP_NAMES, self._steps(special), strict=True)),
+            "STEPS": len(self.steps()),
             "SHAPE": self._shape(),
             "STORE": _store(special, slots),
             "PARAMETERS": parameters.unpacker(self.layout),
@@ -90,6 +90,12 @@ class Recipe(NamedTuple):
             "SLOTS": len(slots),
         }
         return special.clone(kernel.moments, bound)
+
+    def _steps(self, special: Specialiser) -> list[Any]:
+        """What takes each step for a block, and in place of those not needed something typed."""
+        made = [special.bind(kernel.advance, {"STEP": step}) for step in self.steps()]
+        spare = special.bind(kernel.advance, {"STEP": integrands.as_made})
+        return [*made, *[spare] * (len(kernel.STEP_NAMES) - len(made))]
 
     def _bound(self, special: Specialiser, integrand: Function | Wrapped) -> Any:
         if isinstance(integrand, Wrapped):

@@ -3,6 +3,10 @@
 A chart turns (u1, u2) into a direction and the solid angle per unit square there. Lattices need
 periodic integrands: every chart runs its coordinates through `smooth_step`, which stretches the
 ends until values and two derivatives vanish there.
+
+A chart of a lobe is made in steps, which a kernel takes one at a time for a whole block of points:
+polynomials (`polar`), then roots (`half_horizon`, `mirror_horizon`), then quotients. In one piece
+they are a chain of operations that a processor mostly waits for.
 """
 from __future__ import annotations
 
@@ -10,6 +14,9 @@ import math
 
 from montecarlo_brdf.special import cos_half_turn, sin_half_turn, turn
 from montecarlo_brdf.vectors import Vec
+
+Polar = tuple[float, float, float, float, float]
+Row = tuple[float, float, float, float, float, float, float, float]
 
 
 def smooth_step(u: float) -> tuple[float, float, float]:
@@ -24,6 +31,13 @@ def smooth_step(u: float) -> tuple[float, float, float]:
         v * v * v * (10.0 - v * (15.0 - 6.0 * v)),
         30.0 * uv * uv,
     )
+
+
+def polar(u1: float, u2: float) -> Polar:
+    """(w, 1 - w, dw/du1, cos phi, sin phi): a point's radial step and its azimuth."""
+    w, rest, slope = smooth_step(u1)
+    c, s = turn(u2)
+    return w, rest, slope, c, s
 
 
 def azimuth_of(wo: Vec) -> Vec:
@@ -43,16 +57,13 @@ def farthest(q: float, mu: float) -> tuple[float, float]:
     return (m, mu) if q >= 0.0 else (mu, m)
 
 
-def radial(
-    u: float, end: tuple[float, float], scale: float
-) -> tuple[float, float, float, float]:
+def radial(at: Row, scale: float) -> tuple[float, float, float, float]:
     """(t, dt/du, 1/(1 + t^2), (end - t)(t + 1/end)/(1 + t^2)) with t in [0, end].
 
     t = s w end/(s + end (1 - w)): half of the numbers lie within about `scale` = s. One division
     serves all: on vectors it costs as much as ten products.
     """
-    w, rest, slope = smooth_step(u)
-    n, d = end
+    w, rest, slope, _, _, _, n, d = at
     number, below = scale * w * n, scale * d + n * rest
     square = below * below + number * number
     inverse = 1.0 / (below * square * d)
@@ -71,25 +82,36 @@ def steepest(t: float, end: tuple[float, float], scale: float) -> float:
     return 1.875 * last * (scale + t) * (scale + t) / (scale * (scale + last))
 
 
-def half_vector(wo: Vec, u1: float, u2: float, width: float) -> tuple[float, float, float, float]:
-    """(x, y, z, solid angle) through the slope t = tan(theta_h) of the half vector.
+def stretching(wo: Vec) -> float:
+    """How much azimuths are stretched towards the plane of incidence."""
+    return 1.0 / math.sqrt(math.sqrt(wo[2]))
 
-    t runs from 0 to its value at the horizon; the azimuth is stretched towards the plane of
-    incidence when wo is low; dwi = 4 (h.v) dwh. The cosine of wi is a product of positive terms,
-    exact to rounding at the horizon.
-    """
-    ex, ey, so = azimuth_of(wo)
-    mu = wo[2]
-    c, s = turn(u2)
-    stretch = 1.0 / math.sqrt(math.sqrt(mu))
+
+def half_horizon(wo: Vec, at: Polar) -> Row:
+    """Polar coordinates, the stretch of the azimuth there, and where t ends, as a fraction whose
+    numerator and denominator are that times those of `farthest`: both roots at the same time."""
+    w, rest, slope, c, s = at
+    so = math.sqrt(wo[0] * wo[0] + wo[1] * wo[1])
+    mu, stretch = wo[2], stretching(wo)
     square = stretch * stretch + (1.0 - stretch * stretch) * c * c
     side = math.sqrt(square)
-    # the end of t, with numerator and denominator times `side`: both roots at the same time
     m = so * abs(c) + math.sqrt(so * so * c * c + mu * mu * square)
-    end = (m, mu * side) if c >= 0.0 else (mu * side, m)
-    t, dt, cos2, above = radial(u1, end, 2.0 * width)
-    root = 1.0 / side
-    c, s = c * root, stretch * s * root
+    n, d = (m, mu * side) if c >= 0.0 else (mu * side, m)
+    return w, rest, slope, c, s, side, n, d
+
+
+def half_vector(wo: Vec, at: Row, width: float) -> tuple[float, float, float, float]:
+    """(x, y, z, solid angle) from `half_horizon`, through the slope t = tan(theta_h) of the half
+    vector.
+
+    t runs from 0 to its value at the horizon; dwi = 4 (h.v) dwh. The cosine of wi is a product of
+    positive terms, exact to rounding at the horizon.
+    """
+    ex, ey, so = azimuth_of(wo)
+    mu, stretch = wo[2], stretching(wo)
+    t, dt, cos2, above = radial(at, 2.0 * width)
+    root = 1.0 / at[5]
+    c, s = at[3] * root, stretch * at[4] * root
     q = so * c
     facing = q * t + mu  # h.v/h.n
     k = 2.0 * facing * cos2
@@ -104,21 +126,27 @@ def half_vector_area(wo: Vec, wi: Vec, width: float) -> float:
     hx, hy, hz = wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]
     t = math.sqrt(hx * hx + hy * hy) / hz
     c = (hx * ex + hy * ey) / (t * hz) if t > 0.0 else 1.0
-    stretch = 1.0 / math.sqrt(math.sqrt(wo[2]))
+    stretch = stretching(wo)
     turned = stretch * c * c + (1.0 - c * c) / stretch
     dt = steepest(t, farthest(so * c, wo[2]), 2.0 * width)
     cos2 = 1.0 / (1.0 + t * t)
     return 8.0 * math.pi * (so * c * t + wo[2]) * cos2 * cos2 * t * dt * turned
 
 
-def mirror(wo: Vec, u1: float, u2: float, width: float) -> tuple[float, float, float, float]:
-    """(x, y, z, solid angle) through the tangent t of half the angle to the mirror direction.
+def mirror_horizon(wo: Vec, at: Polar) -> Row:
+    """Polar coordinates and where t ends: the horizon lies where the half vector's does, with the
+    same equation for t."""
+    w, rest, slope, c, s = at
+    so = math.sqrt(wo[0] * wo[0] + wo[1] * wo[1])
+    return w, rest, slope, c, s, 1.0, *farthest(so * c, wo[2])
 
-    The horizon lies where the half vector's does, with the same equation for t.
-    """
+
+def mirror(wo: Vec, at: Row, width: float) -> tuple[float, float, float, float]:
+    """(x, y, z, solid angle) from `mirror_horizon`, through the tangent t of half the angle to the
+    mirror direction."""
     ex, ey, so = azimuth_of(wo)
-    c, s = turn(u2)
-    t, dt, cos2, above = radial(u1, farthest(so * c, wo[2]), width)
+    c, s = at[3], at[4]
+    t, dt, cos2, above = radial(at, width)
     k = 2.0 * t * cos2
     x, y = k * c * wo[2] - (1.0 - t * t) * cos2 * so, k * s
     area = 8.0 * math.pi * t * dt * cos2 * cos2
@@ -138,18 +166,20 @@ def mirror_area(wo: Vec, wi: Vec, width: float) -> float:
     return 8.0 * math.pi * t * steepest(t, farthest(so * c, wo[2]), width) * cos2 * cos2
 
 
-def panel(wo: Vec, u1: float, u2: float, high: bool) -> tuple[float, float, float, float]:
-    """(x, y, z, d(projected solid angle)) in one of the panels of the cosine chart.
+def panels(wo: Vec, u1: float, u2: float) -> Row:
+    """(x, y, z, d(projected solid angle)) in two panels of the cosine chart, one on either side of
+    wo's height.
 
-    Panels meet where theta_i = theta_o and where cos(phi_i - phi_o) = 0. `high`: closer to the
-    normal than wo. This is the panel on wo's side; (-x, -y, z) lies in its opposite.
+    Panels meet where theta_i = theta_o and where cos(phi_i - phi_o) = 0. These two are on wo's
+    side; (-x, -y, z) lies in their opposites.
     """
     ex, ey, so = azimuth_of(wo)
     w, rest, slope = smooth_step(u1)
     b, _, across = smooth_step(u2)
+    c, s = cos_half_turn(b - 0.5), sin_half_turn(b - 0.5)
+    x, y = c * ex - s * ey, c * ey + s * ex
     mu2, so2 = wo[2] * wo[2], so * so
-    r2, z2 = (so2 * w, mu2 + so2 * rest) if high else (so2 + mu2 * w, mu2 * rest)
-    r = math.sqrt(r2)
-    c, s = r * cos_half_turn(b - 0.5), r * sin_half_turn(b - 0.5)
-    area = (so2 if high else mu2) * slope * 0.5 * math.pi * across
-    return c * ex - s * ey, c * ey + s * ex, math.sqrt(z2), area
+    high, above = math.sqrt(so2 * w), math.sqrt(mu2 + so2 * rest)
+    low, below = math.sqrt(so2 + mu2 * w), math.sqrt(mu2 * rest)
+    area = 0.5 * math.pi * slope * across
+    return high * x, high * y, above, so2 * area, low * x, low * y, below, mu2 * area

@@ -10,10 +10,9 @@ was measured: scripts/results/practrand.md.
 """
 from __future__ import annotations
 
-from montecarlo_brdf.bits import u64, unit
+from montecarlo_brdf.bits import LOW, u64, unit
 from montecarlo_brdf.sampling.keys import NONE, Point, Shape, axis_key
 
-LOW = 0xFFFFFFFF
 MULTIPLIER = 0xD256D193
 
 

@@ -66,12 +66,20 @@ def test_smooth_step_and_its_complement_add_up(u):
     assert 0.0 <= slope <= 1.875 and min(w, rest) >= 0.0
 
 
+HORIZONS = {"half_vector": charts.half_horizon, "mirror": charts.mirror_horizon}
+
+
+def made(chart, wo, u1, u2, width):
+    """(x, y, z, solid angle) of a point, by all steps of a chart."""
+    return getattr(charts, chart)(wo, HORIZONS[chart](wo, charts.polar(u1, u2)), width)
+
+
 @given(st.floats(0.0, 89.9), st.floats(0.0, 360.0), st.floats(1e-3, 0.999), st.floats(0.0, 0.999),
        st.floats(1e-3, 1.0))  # fmt: skip
 def test_charts_give_unit_vectors_above_the_horizon(theta, phi, u1, u2, width):
     wo = from_degrees(theta, phi)
-    for chart in (charts.half_vector, charts.mirror):
-        x, y, z, area = chart(wo, u1, u2, width)
+    for chart in HORIZONS:
+        x, y, z, area = made(chart, wo, u1, u2, width)
         assert z > 0.0 and area >= 0.0
         assert math.hypot(x, y, z) == pytest.approx(1.0, abs=1e-13)
 
@@ -84,7 +92,7 @@ def test_charts_cover_the_hemisphere_once(chart, theta):
     solid = projected = 0.0
     for i in range(n):
         for j in range(n):
-            *_, z, area = getattr(charts, chart)(wo, (i + 0.5) / n, (j + 0.5) / n, 0.4)
+            *_, z, area = made(chart, wo, (i + 0.5) / n, (j + 0.5) / n, 0.4)
             solid += area / n**2
             projected += area * z / n**2
     assert solid == pytest.approx(2.0 * math.pi, rel=2e-4)
@@ -96,8 +104,8 @@ def test_panels_cover_the_hemisphere_once():
     total = 0.0
     for i in range(n):
         for j in range(n):
-            for high in (True, False):
-                x, y, z, area = charts.panel(wo, (i + 0.5) / n, (j + 0.5) / n, high)
+            both = charts.panels(wo, (i + 0.5) / n, (j + 0.5) / n)
+            for high, (x, y, z, area) in ((True, both[:4]), (False, both[4:])):
                 assert math.hypot(x, y, z) == pytest.approx(1.0, abs=1e-13)
                 assert (z >= wo[2]) == high and x * wo[0] + y * wo[1] >= -1e-16
                 total += 2.0 * area / n**2
@@ -110,7 +118,7 @@ def test_area_bounds_the_solid_angle(chart):
     wo = from_degrees(70.0, 20.0)
     for i in range(1, 40):
         for j in range(40):
-            x, y, z, area = getattr(charts, chart)(wo, i / 40, j / 40, 0.1)
+            x, y, z, area = made(chart, wo, i / 40, j / 40, 0.1)
             _, _, slope = charts.smooth_step(i / 40)
             bound = getattr(charts, f"{chart}_area")(wo, (x, y, z), 0.1)
             assert area == pytest.approx(bound * slope / 1.875, rel=1e-9)
