@@ -12,7 +12,7 @@ import numpy as np
 
 LARGEST = 20
 CANDIDATES = 64
-BETWEEN = (144, 448)
+BETWEEN = (144, 448, 648)
 
 
 def zaremba(n: int) -> np.ndarray:
@@ -88,7 +88,7 @@ def main() -> None:
         first = second(n)
         print(f"    {n}: {(first, *further(n, first))},")
     print("}")
-    for n in (128, 144, 160, 192, 224, 256, 288, 320, 384, 448, 512, 576):
+    for n in (128, 144, 160, 192, 224, 256, 288, 320, 384, 448, 512, 576, 648, 704):
         print(f"# {n}: exact below |h1| + |h2| = {degree(n, second(n))}")
 
 

@@ -142,7 +142,7 @@ def test_results_do_not_depend_on_how_often_a_kernel_is_called():
     for stop in (1, 2, 3):
         singly.look(stop)
     assert at_once.errors == singly.errors and at_once.states == singly.states
-    assert len(at_once.errors) == 3 and at_once.size == singly.size == 1024
+    assert len(at_once.errors) == 3 and at_once.size == singly.size == 648
 
 
 @pytest.mark.parametrize("albedo", [mb.directional_albedo, mb.reverse_albedo])

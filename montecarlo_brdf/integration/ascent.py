@@ -19,7 +19,8 @@ from montecarlo_brdf.vectors import Vec
 
 FIRST = 64  # samples of a replicate at the first look,
 FINE, FIRST_FINE = 1e-5, 256  # and where the target is finer than that: less has no chance
-LATTICES, LATTICES_FINE = (64, 144, 448, 1024), (144, 448, 1024)  # of lattices; then powers of 2
+# of lattices; then powers of 2
+LATTICES, LATTICES_FINE = (64, 144, 448, 648, 1024), (144, 448, 648, 1024)
 FALL, LATTICES_FALL = 32.0, 1000.0  # the most that an error was seen to fall between sizes
 MOST = {"lattice": 20, "sobol": 20, "stratified": 20, "independent": 22}  # log2, the last look
 #: A sampler's weight may be 0 once in a million draws (a rejected direction) and 1 otherwise: until

@@ -39,10 +39,12 @@ GENERATORS: dict[int, tuple[int, int, int, int]] = {
 }
 
 #: Sizes between powers of 2 whose best generators integrate more waves exactly than those of
-#: larger neighbours: all with |h1| + |h2| < 16 and 28; 192 points reach 16 too, 512 only 26.
+#: larger neighbours: all with |h1| + |h2| < 16, 28 and 36; 192 points reach 16 too, 512 only 26,
+#: 704 only 32.
 BETWEEN: dict[int, tuple[int, int, int, int]] = {
     144: (55, 25, 73, 37),
     448: (131, 349, 245, 23),
+    648: (179, 141, 63, 277),
 }
 
 
