@@ -6,8 +6,8 @@ blocks of fixed size that are merged in fixed order, so that results do not depe
 is cut into calls or on the number of threads. Points of a block are made before integrands are
 evaluated: in one loop their dependent operations add up to a chain that a processor with few vector
 registers waits for (a third of the time of GGX, half of Beckmann's). Where all integrands want the
-same direction of a point, STEP and NEXT make it there too, each in a loop of its own. Coordinates
-that no integrand reads are never made.
+same direction of a point, it is made before too, in up to three steps, each in a loop of its own.
+Coordinates that no integrand reads are never made.
 """
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ QUERY = 4
 STATE = 4
 
 POINTS: Any = None
-STEP_NAMES = ("ONE", "TWO", "THREE")
-ONE: Any = None
-TWO: Any = None
-THREE: Any = None
-STEPS = 1
+STEP_NAMES = ("STEP_ONE", "STEP_TWO", "STEP_THREE")
+STEP_ONE: Any = None
+STEP_TWO: Any = None
+STEP_THREE: Any = None
+STEPS = 1  # how many of these are taken
 STEP: Any = None
 SHAPE: Any = None
 STORE: Any = None
@@ -67,11 +67,11 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
             for j in range(m):
                 u[0][j], u[1][j], u[2][j], u[3][j], u[4][j] = POINTS(key, u64(i + j), shape)
             if STEPS > 0:
-                ONE(u, w, m, query)
+                STEP_ONE(u, w, m, query)
             if STEPS > 1:
-                TWO(w, w, m, query)
+                STEP_TWO(w, w, m, query)
             if STEPS > 2:
-                THREE(w, w, m, query)
+                STEP_THREE(w, w, m, query)
             for j in range(m):
                 point = row(w, j) if STEPS > 0 else row(u, j)
                 for k in range(CHANNELS):
