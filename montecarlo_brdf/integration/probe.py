@@ -126,9 +126,14 @@ def rejected(model: Model, ready: Any, wo: Vec) -> float:
         for j in range(ACROSS):
             s, third = (j + 0.5) / ACROSS, math.modf(0.5 + (ACROSS * k + j) * GOLDEN)[0]
             for axis, u in enumerate(((t, s, third), (s, t, third))):
-                w = _called(model, "sample", model.sample, wo, u, ready)
-                found[axis] += mass / ACROSS * (isinstance(w, tuple) and not w[2] > 0.0)
+                found[axis] += mass / ACROSS * _is_rejected(model, ready, wo, u)
     return max(found)
+
+
+def _is_rejected(model: Model, ready: Any, wo: Vec, u: Vec) -> bool:
+    w = _called(model, "sample", model.sample, wo, u, ready)
+    z = w[2] if isinstance(w, tuple) else math.nan
+    return isinstance(z, numbers.Real) and float(z) <= 0.0
 
 
 def _graded() -> list[tuple[float, float]]:

@@ -66,7 +66,7 @@ class Recipe(NamedTuple):
                 content.add(integrand.outer)
                 integrand = integrand.inner
             content.add(integrand, self.bound())
-        content.add(kernel.moments)
+        content.add((kernel.moments, kernel.advance, kernel.store))
         content.add(len(self.integrands))
         return content.hexdigest()
 
