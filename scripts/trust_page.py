@@ -128,7 +128,7 @@ def methods() -> Iterator[str]:
     unfit, low = sum(isinstance(c, str) for c in asked), study["low"]
     yield (
         f"Of {len(asked):,} combinations {unfit:,} are declared unfit by the tool and "
-        f"{len(asked) - unfit - len(low):,} are covered; {len(low)} are not:\n"
+        f"{len(asked) - unfit - len(low):,} are covered; too low: {len(low)}.\n"
     )
     yield from table("case | method | coverage by samples", [_low(r) for r in low])
     worst = min(r["within"] / r["ended"] for r in rows if r.get("ended"))
