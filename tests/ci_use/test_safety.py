@@ -160,10 +160,10 @@ def test_interrupts(text: str, user_file: Any, tmp_path: Path) -> None:
 
 def test_threads_never_show_in_a_run() -> None:
     """Checks side by side give the same bytes, in the same order, as one after another."""
-    one, *others = (
-        mb.run(mb.load("phong"), samples=1 << 14, threads=t).to_dict()["results"] for t in (1, 2, 3)
+    one, three = (
+        mb.run(mb.load("phong"), samples=1 << 14, threads=t).to_dict()["results"] for t in (1, 3)
     )
-    assert len(one) == len(checks.names()) and all(json.dumps(o) == json.dumps(one) for o in others)
+    assert len(one) == len(checks.names()) and json.dumps(three) == json.dumps(one)
 
 
 def test_cuts_never_show(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -23,7 +23,7 @@ HONEST = sorted((TESTS / "honest").glob("*.py"))
 #: honest models are asked everything, at fewer angles: it is about their kinds, not about angles
 ANGLES = (0.0, 70.0)
 CAUSES = 1
-#: honest models that took more than 7 s (but both_from_one_number, which found a poor generator)
+#: honest models that took more than 5 s (but both_from_one_number, which found a poor generator)
 LONG = {
     "azimuth_folded", "dark_beyond_60_degrees", "f_only_ggx_sharp", "mixture_by_one_number",
     "narrow_ring", "rejection_by_hash", "retro_needle",
@@ -32,6 +32,7 @@ LONG = {
     "f_only_ggx", "ggx_same_as", "huge_exponent", "mirrored_numbers", "one_of_two_by_u2",
     "oren_nayar_by_angles", "phong_u_reaches_0", "piecewise_sampler", "rejection_sampler",
     "retro_lobe", "retro_lobe_f_only", "zero_in_regions",
+    "kinked_toon", "no_sampler", "rounded_below_zero",
 }  # fmt: skip
 
 
