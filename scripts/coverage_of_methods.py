@@ -107,7 +107,7 @@ def look(model: Any, p: Any, theta: float, seeds: int) -> Iterator[dict[str, Any
         return
     truth = truth._replace(error=truth.error + FITTED.get(model.name, 0.0) * truth.value)
     case = {"model": model.name, "p": p._asdict(), "theta_o": theta}
-    sight = fitness.look(variant, variant.prepared(p), wo)
+    sight = fitness.look(variant, p, wo)
     for method in methods.methods(variant):
         setting = methods.prepare(variant, p, type(p), method)
         demanded = need(setting, wo)

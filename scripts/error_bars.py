@@ -150,7 +150,7 @@ def unfit(a: Asked, points: str) -> str | None:
     both = a.sampler in fitness.SCALE and a.model.sample and a.model.pdf
     names += [f"second_{a.sampler}"] if both else []
     row = estimates(a.model, a.one, wo, names, Plan(points, 1 << 14), ("coverage",))[0]
-    sight = fitness.look(a.model, a.model.prepared(a.one), wo)
+    sight = fitness.look(a.model, a.one, wo)
     return fitness.reason_unfit(a.sampler, row[0], sight, row[1] if both else None)
 
 

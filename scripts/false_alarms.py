@@ -101,7 +101,7 @@ def _claim(
     fixed = (*wo, radiance.WHICH["tilted"]) if sky else query(model, one, wo)
     q = replicates.Question(subject_of(model, one, **sky), fixed, functions, ("false alarms", kind))
     row = evaluate(q.subject, q.fixed, functions, Plan(samples=SAMPLES), q.label)[0]
-    sight = fitness.look(model, model.prepared(one), wo)
+    sight = fitness.look(model, one, wo)
     moments = dict(zip(seconds, row[len(chosen) :], strict=True))
     fit = [
         fitness.reason_unfit(s, e, sight, moments.get(s)) is None

@@ -102,5 +102,5 @@ def _reverse(model: Model, p: Any, wi: Vec, plan: Plan) -> list[Measurement]:
     chosen = samplers_of(model, "reverse")
     names = [integrand_name(model, "reverse", s) for s in chosen]
     row = estimates(model, p, wi, names, plan, (NAME, "reverse"))[0]
-    sight = fitness.look(model, model.prepared(p), wi)
+    sight = fitness.look(model, p, wi)
     return [fitness.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]

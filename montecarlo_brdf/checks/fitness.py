@@ -7,6 +7,7 @@ f cos/pdf unbounded at the horizon is recognised by the exponent of f there.
 """
 from __future__ import annotations
 
+import functools
 import math
 from typing import Any, NamedTuple
 
@@ -57,8 +58,11 @@ class Sight(NamedTuple):
         return SCALE[sampler] * (self.highest if DENSITY[sampler] else self.brightest)
 
 
-def look(model: Model, ready: Any, fixed: Vec) -> Sight:
-    """Probe f around the mirror direction and at the horizon, and the sampler at its ends."""
+@functools.lru_cache(maxsize=1024)
+def look(model: Model, one: Any, fixed: Vec) -> Sight:
+    """Probe f around the mirror direction and at the horizon, and the sampler at its ends: once,
+    however often a claim takes more samples."""
+    ready = model.prepared(one)
     exponent = probe.horizon_exponent(model, ready, fixed)
     signed = "positivity" in model.disclaims
     rejected = probe.rejected(model, ready, fixed)

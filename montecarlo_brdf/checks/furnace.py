@@ -185,7 +185,7 @@ def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:
     rows = estimates(model, case.p, wo, names, plan, (NAME,))
     result = []
     for row, one in zip(rows, case.sets, strict=True):
-        sight = fitness.look(model, model.prepared(one), wo)
+        sight = fitness.look(model, one, wo)
         seconds = dict(zip(blind, row[len(chosen) :], strict=False))
         result.append(
             [

@@ -118,5 +118,5 @@ def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measuremen
     functions = [getattr(integrands, integrand_name(model, "radiance", s)) for s in chosen]
     subject = subject_of(model, case.one, SKY=either_sky)
     row = evaluate(subject, (*wo, WHICH[name]), functions, plan, (name, NAME))[0]
-    sight = fitness.look(model, model.prepared(case.one), wo)
+    sight = fitness.look(model, case.one, wo)
     return [fitness.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]

@@ -91,8 +91,7 @@ def half_horizon(wo: Vec, at: Polar) -> Row:
     """Polar coordinates, the stretch of the azimuth there, and where t ends, as a fraction whose
     numerator and denominator are that times those of `farthest`: both roots at the same time."""
     w, rest, slope, c, s = at
-    so = math.sqrt(wo[0] * wo[0] + wo[1] * wo[1])
-    mu, stretch = wo[2], stretching(wo)
+    so, mu, stretch = azimuth_of(wo)[2], wo[2], stretching(wo)
     square = stretch * stretch + (1.0 - stretch * stretch) * c * c
     side = math.sqrt(square)
     m = so * abs(c) + math.sqrt(so * so * c * c + mu * mu * square)
@@ -137,8 +136,7 @@ def mirror_horizon(wo: Vec, at: Polar) -> Row:
     """Polar coordinates and where t ends: the horizon lies where the half vector's does, with the
     same equation for t."""
     w, rest, slope, c, s = at
-    so = math.sqrt(wo[0] * wo[0] + wo[1] * wo[1])
-    return w, rest, slope, c, s, 1.0, *farthest(so * c, wo[2])
+    return w, rest, slope, c, s, 1.0, *farthest(azimuth_of(wo)[2] * c, wo[2])
 
 
 def mirror(wo: Vec, at: Row, width: float) -> tuple[float, float, float, float]:
