@@ -1,4 +1,4 @@
-"""Print the polynomial coefficients used in montecarlo_brdf/special.py, with the error of each fit.
+"""Print the polynomial coefficients of special.py and models/_smith.py, with the error of each fit.
 
 Chebyshev fits in 40 digits (mpmath.chebyfit), so that the printed doubles can be checked by anyone:
 python scripts/polynomials.py. Leading terms that must be exact are taken out before fitting.
@@ -30,9 +30,28 @@ def asin_rest(z: mp.mpf) -> mp.mpf:
     return mp.mpf(1) / 6 if t < 1e-12 else (mp.asin(t) / t - 1) / z
 
 
-def erfcx(s: mp.mpf) -> mp.mpf:
-    a = (1 + s) / (1 - s) * 2
-    return mp.exp(a * a) * mp.erfc(a)
+def masked(x: mp.mpf) -> mp.mpf:
+    """Lambda/x of Beckmann's distribution, so that mu Lambda = alpha sin masked(x)."""
+    return (mp.exp(-x * x) / mp.sqrt(mp.pi) - x * mp.erfc(x)) / 2
+
+
+def eighth_root(terms: int, reach: int, scale: int, nodes: int = 80) -> None:
+    """(masked(x)/masked(0))^(1/8) in s = x/(x + scale) for x <= reach, least squares at Chebyshev's
+    points; weights are the error of x + masked(x), relative, that an error of the root makes."""
+    end = mp.mpf(reach) / (reach + scale)
+    t = [(1 + mp.cos(mp.pi * (k + mp.mpf(1) / 2) / nodes)) / 2 for k in range(nodes)]
+    x = [scale * end * v / (1 - end * v) for v in t]
+    root = [(masked(a) / masked(mp.mpf(0))) ** (mp.mpf(1) / 8) for a in x]
+    weight = [8 * masked(a) / r / (a + masked(a)) for a, r in zip(x, root, strict=True)]
+    rows = zip(t, weight, strict=True)
+    powers = mp.matrix([[w * v ** (j + 1) for j in range(terms - 1)] for v, w in rows])
+    wanted = mp.matrix([w * (r - 1) for r, w in zip(root, weight, strict=True)])
+    found = mp.lu_solve(powers.T * powers, powers.T * wanted)
+    error = max(abs(e) for e in powers * found - wanted)
+    print(f"# (masked(x)/masked(0))^(1/8) in s = x/(x + {scale}), x <= {reach}: {terms} terms,")
+    print(f"# fit error of 1 + Lambda {mp.nstr(error, 3)}; from s^0 up")
+    for c in (mp.mpf(1), *(found[j] / end ** (j + 1) for j in range(terms - 1))):
+        print(f"    {float(c)!r},")
 
 
 def show(name: str, f, low: float, high: float, terms: int) -> None:
@@ -50,4 +69,4 @@ if __name__ == "__main__":
     show("(exp(r) - 1 - r)/r^2, |r| <= ln(2)/2", exp_rest, -half_ln2, half_ln2, 10)
     show("2 (atanh(s) - s)/(s^3 ln 2) in s*s, |s| <= tan(pi/8)^2", log_rest, 0, largest, 8)
     show("(asin(t) - t)/t^3 in t*t, |t| <= sqrt(1/2)", asin_rest, 0, 0.5, 20)
-    show("exp(a^2) erfc(a) in s = (a - 2)/(a + 2), 0 <= a <= 7", erfcx, -1, mp.mpf(5) / 9, 20)
+    eighth_root(terms=18, reach=6, scale=16)

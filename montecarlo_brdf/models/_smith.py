@@ -1,13 +1,14 @@
 """Smith masking beyond GGX, as mu Lambda(mu), which stays finite at the horizon.
 
-With x^2 = a exponent of the distribution, Lambda is a Gaussian times what a scaled complementary
-error function leaves of a leading term:
+With x^2 = a exponent of the distribution:
 
-    Beckmann      mu Lambda = exp(-x^2)/2 (alpha sin/sqrt(pi) - mu erfcx(x)),  x = mu/(alpha sin)
+    Beckmann      mu Lambda = (alpha sin/sqrt(pi) exp(-x^2) - mu erfc(x))/2,  x = mu/(alpha sin)
     Blinn-Phong   mu Lambda = exp(-x^2) (c - mu R(x)/2),  x^2 = -(n+2)/2 ln(1 - mu^2)
 
-Blinn-Phong's R is exp(x^2) times a regularised incomplete beta function (formulas.md, section 6);
-in x it is as smooth as erfcx, for every n, and a short Chebyshev series has all its digits.
+Beckmann's falls from alpha sin/(2 sqrt(pi)) like a Gaussian, and its eighth root so slowly that a
+polynomial has all of it. Blinn-Phong's R is exp(x^2) times a regularised incomplete beta function
+(formulas.md, section 6); in x it is as smooth as exp(x^2) erfc(x), for every n, and a short
+Chebyshev series has all its digits.
 """
 from __future__ import annotations
 
@@ -18,37 +19,36 @@ from montecarlo_brdf.models._chebyshev import Eight, eight_terms, fitted
 from montecarlo_brdf.special import exp, log1p
 from montecarlo_brdf.vectors import Vec
 
-REACH = 6.4  # exp(-REACH^2) = 2e-18: nothing is masked beyond
+REACH = 6.4  # of Blinn-Phong: exp(-REACH^2) = 2e-18, nothing is masked beyond
 BELOW_1 = 1.0 - 2.0**-52  # keeps the logarithm at the normal finite
 
 
-def erfcx(x: float) -> float:
-    """exp(x^2) erfc(x) for 0 <= x <= 7, absolute error below 6e-16; scripts/polynomials.py."""
-    s = (x - 2.0) / (x + 2.0)
+def beckmann_hidden(w: Vec, alpha: float) -> float:
+    """mu Lambda of Beckmann's distribution, Walter et al. 2007, eq. 26 without its fit.
+
+    Error below 1.5e-15 of mu (1 + Lambda), which is what masking divides by; where nothing is
+    masked, x > 6, s stays what it is at 6. Coefficients: scripts/polynomials.py.
+    """
+    side = alpha * math.sqrt(w[0] * w[0] + w[1] * w[1])
+    s = min(w[2] / (w[2] + 16.0 * side), 6.0 / 22.0)
     s2 = s * s
     s4 = s2 * s2
     s8 = s4 * s4
-    a = 0.2553956763105057 - 0.4271858474139593 * s
-    b = 0.24165819424248539 - 0.07897858101559538 * s
-    c = 0.003732892403369275 + 0.006997461733132937 * s
-    d = -0.0008471432356558474 - 0.0009819769088012897 * s
-    e = 4.3555562393116e-05 + 0.0001743600204039873 * s
-    f = 2.7524174928679665e-05 - 2.757420451369385e-05 * s
-    g = -1.3952258599636823e-05 + 1.3799681469860685e-06 * s
-    h = 3.709350449486459e-06 + 1.1864392016306279e-06 * s
-    i = -3.420983643713441e-07 - 4.2355434640269846e-07 * s
-    j = -1.4982964749038872e-07 - 2.0441805193191522e-08 * s
+    a = 1.0 - 3.544907701811091 * s
+    b = -15.527204851995117 - 13.016096384332904 * s
+    c = 276.09463748485143 + 1191.721067972647 * s
+    d = -1647.439085952914 - 20564.47263045574 * s
+    e = -6113.632344198263 + 170320.1577079254 * s
+    f = -54772.154848723985 - 1594294.5119713848 * s
+    g = 26468641.857386835 - 155152604.65800366 * s
+    h = 441192101.7855338 - 829269721.9951361 * s
+    i = 1264133885.9341154 - 1084221506.9736898 * s
     low = (a + b * s2) + (c + d * s2) * s4
     high = (e + f * s2) + (g + h * s2) * s4
-    return low + (high + (i + j * s2) * s8) * s8
-
-
-def beckmann_hidden(w: Vec, alpha: float) -> float:
-    """mu Lambda of Beckmann's distribution, Walter et al. 2007, eq. 26 without its fit."""
-    side = alpha * math.sqrt(w[0] * w[0] + w[1] * w[1])
-    x = w[2] / (side + 1e-150)
-    rest = side / math.sqrt(math.pi) - w[2] * erfcx(min(x, REACH))
-    return 0.5 * exp(-x * x) * rest
+    root = low + (high + i * s8) * s8
+    root2 = root * root
+    root4 = root2 * root2
+    return 0.5 / math.sqrt(math.pi) * side * (root4 * root4)
 
 
 class Series(NamedTuple):

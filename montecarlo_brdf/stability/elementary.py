@@ -123,6 +123,5 @@ def _stand_ins(m: Any) -> dict[Any, Any]:
         "cos_half_turn": lambda t: m.cos(math.pi * t),
         "turn": lambda u: (m.cos(m.tau * (u - 0.5)), m.sin(m.tau * (u - 0.5))),
         "asin_low": m.asin,
-        "erfcx": lambda a: m.exp(a * a) * m.erfc(a),
     }
     return {getattr(special, k): v for k, v in by_name.items() if hasattr(special, k)}

@@ -52,11 +52,17 @@ def test_beckmann_masking(alpha: float) -> None:
             assert error(_smith.beckmann_hidden(direction(mu), alpha), mu, hidden) < 2e-15
 
 
-def test_scaled_complementary_error_function() -> None:
+def test_beckmann_masking_at_every_slope() -> None:
+    """x = cot(theta)/alpha from the horizon to where nothing is masked any more."""
+    alpha = 0.7
     with mp.workdps(DIGITS):
-        for x in np.linspace(0.0, 7.0, 2000):
-            truth = mp.exp(mp.mpf(float(x)) ** 2) * mp.erfc(mp.mpf(float(x)))
-            assert abs(_smith.erfcx(float(x)) - truth) < 6e-16
+        for x in np.concatenate([np.geomspace(1e-6, 0.1, 500), np.linspace(0.1, 7.0, 2000)]):
+            mu = alpha * float(x) / math.hypot(1.0, alpha * float(x))
+            sin = math.sqrt((1.0 - mu) * (1.0 + mu))
+            side = alpha * mp.mpf(sin)
+            lead = side * mp.exp(-((mu / side) ** 2)) / mp.sqrt(mp.pi)
+            hidden = (lead - mu * mp.erfc(mu / side)) / 2
+            assert error(_smith.beckmann_hidden((sin, 0.0, mu), alpha), mu, hidden) < 1.5e-15
 
 
 @pytest.mark.parametrize("mu", MU)
