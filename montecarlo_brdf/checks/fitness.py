@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.checks.claim import Measurement
 from montecarlo_brdf.integration import probe
+from montecarlo_brdf.integration.ends import Ends, at_ends
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.vectors import Vec
@@ -51,7 +52,7 @@ class Sight(NamedTuple):
     brightest: float  # the same of f cos
     exponent: float  # s in f ~ mu_i^-s near the horizon
     signed: bool = False  # whether f may be negative: its mean then is small for no lack of samples
-    rejected: float = 0.0  # share of the own sampler's draws that are below the horizon
+    ends: Ends = Ends()  # of the own sampler's numbers
 
     def largest(self, sampler: str) -> float:
         """The largest f cos/pdf to be expected."""
@@ -65,8 +66,8 @@ def look(model: Model, one: Any, fixed: Vec) -> Sight:
     ready = model.prepared(one)
     exponent = probe.horizon_exponent(model, ready, fixed)
     signed = "positivity" in model.disclaims
-    rejected = probe.rejected(model, ready, fixed)
-    return Sight(*probe.highest(model, ready, fixed), exponent, signed, rejected)
+    ends = at_ends(model, ready, fixed)
+    return Sight(*probe.highest(model, ready, fixed), exponent, signed, ends)
 
 
 def moment_is_finite(moment: int, sampler: str, exponent: float) -> bool:
@@ -83,7 +84,7 @@ def measured(
     `second` estimates E[x^2] of this sampler from draws by the model's own.
     """
     if sampler not in SCALE:
-        e = heeding_rejected(e, sight.rejected)
+        e = heeding_ends(heeding_rejected(e, sight.ends.rejected), sight.ends)
     return Measurement(sampler, e, reason_unfit(sampler, e, sight, second))
 
 
@@ -96,6 +97,19 @@ def heeding_rejected(e: Estimate, share: float) -> Estimate:
     if share == 0.0 or share * e.samples >= FEWEST_REJECTED:
         return e
     return e._replace(stderr=max(e.stderr, share * abs(e.mean)))
+
+
+def heeding_ends(e: Estimate, ends: Ends) -> Estimate:
+    """The estimate with no smaller error than the draws nearest to the ends are known to make.
+
+    Where they make nearly all of it (Phong's weights at the normal fall like a logarithm), sixteen
+    replicates whose spread happens to be small are those that miss the truth.
+    """
+    if not e.replicates:
+        return e
+    many = len(e.replicates)
+    known = ends.spread(e.samples / many) / math.sqrt(many)
+    return e._replace(stderr=max(e.stderr, known * abs(e.mean)))
 
 
 def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | None) -> str | None:

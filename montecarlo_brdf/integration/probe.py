@@ -18,30 +18,27 @@ from montecarlo_brdf.vectors import Vec, from_degrees, mirrored
 #: Ordinary directions and numbers: any of them must work for any model.
 DIRECTIONS = (from_degrees(20.0, 0.0), from_degrees(50.0, 130.0), from_degrees(70.0, 250.0))
 UNIFORMS = (0.3, 0.6, 0.4)
-#: cells of a number towards each of its ends, and values of the other number in each
-OCTAVES, ACROSS = 24, 8
-GOLDEN = 0.6180339887498949  # the fraction of the golden ratio: its multiples never cluster
 
 
 def check(model: Model, p: Any) -> None:
     """Raise ModelError unless f, sample and pdf return what the contract says."""
     model = model.of(p)
     for one in channels(p):
-        ready = _called(model, "prepare", model.prepared, one)
+        ready = called(model, "prepare", model.prepared, one)
         for wo in DIRECTIONS:
             for wi in DIRECTIONS:
-                _number(model, "f", _called(model, "f", model.f, wo, wi, ready))
+                _number(model, "f", called(model, "f", model.f, wo, wi, ready))
         if model.sample:
             for value in _drawn(model, ready):
                 _number(model, "sample", value)
         if model.pdf:
             pair = DIRECTIONS[0], DIRECTIONS[1]
-            _number(model, "pdf", _called(model, "pdf", model.pdf, *pair, ready))
+            _number(model, "pdf", called(model, "pdf", model.pdf, *pair, ready))
 
 
 def _drawn(model: Model, ready: Any) -> tuple[Any, ...]:
     """One result of `sample`."""
-    drawn = _called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)
+    drawn = called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)
     if not isinstance(drawn, tuple) or len(drawn) not in (3, 4):
         raise ModelError(
             f"sample of model {model.name} must return (x, y, z) or (x, y, z, weight), "
@@ -50,7 +47,7 @@ def _drawn(model: Model, ready: Any) -> tuple[Any, ...]:
     return drawn
 
 
-def _called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
+def called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
     """The result, NaN where Python raises what compiled arithmetic does not."""
     try:
         value = function(*arguments)
@@ -113,40 +110,11 @@ def horizon_exponent(model: Model, ready: Any, wo: Vec) -> float:
     return worst
 
 
-def rejected(model: Model, ready: Any, wo: Vec) -> float:
-    """The share of draws of the model's sampler that lie below the horizon, to a factor of 2.
-
-    Rare ones come from the ends of u[0] or u[1], so cells that halve towards both ends find shares
-    down to 2^-OCTAVES, which a million random numbers may never meet. 0 without a sampler.
-    """
-    if model.sample is None:
-        return 0.0
-    found = [0.0, 0.0]
-    for k, (mass, t) in enumerate(_graded()):
-        for j in range(ACROSS):
-            s, third = (j + 0.5) / ACROSS, math.modf(0.5 + (ACROSS * k + j) * GOLDEN)[0]
-            for axis, u in enumerate(((t, s, third), (s, t, third))):
-                found[axis] += mass / ACROSS * _is_rejected(model, ready, wo, u)
-    return max(found)
-
-
-def _is_rejected(model: Model, ready: Any, wo: Vec, u: Vec) -> bool:
-    w = _called(model, "sample", model.sample, wo, u, ready)
-    z = w[2] if isinstance(w, tuple) else math.nan
-    return isinstance(z, numbers.Real) and float(z) <= 0.0
-
-
-def _graded() -> list[tuple[float, float]]:
-    """The mass and the middle of cells of [0, 1) that halve towards both ends."""
-    cells = [(0.25 * 0.5**k, 0.375 * 0.5**k) for k in range(OCTAVES)]
-    return [*cells, *((mass, 1.0 - t) for mass, t in cells)]
-
-
 def _at_cosine(mu: float, phi: float) -> Vec:
     s = math.sqrt(1.0 - mu * mu)
     return s * math.cos(phi), s * math.sin(phi), mu
 
 
 def _value(model: Model, wo: Vec, wi: Vec, ready: Any) -> float:
-    value = _called(model, "f", model.f, wo, wi, ready)
+    value = called(model, "f", model.f, wo, wi, ready)
     return float(value) if isinstance(value, numbers.Real) else math.nan

@@ -103,7 +103,7 @@ def value_of(model: Model, p: Any, wo: Vec, wi: Vec) -> float:
     """f(wo, wi) by the model's plain Python function; 0 below the horizon."""
     function = getattr(model.f, "py_func", model.f)
     above = (wi[0], wi[1], abs(wi[2]) or 5e-324)
-    return float(probe._called(model, "f", function, wo, above, model.prepared(p)))
+    return float(probe.called(model, "f", function, wo, above, model.prepared(p)))
 
 
 def ambient_colour(scene: Scene) -> list[float]:

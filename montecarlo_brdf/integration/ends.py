@@ -1,0 +1,93 @@
+"""What a model's sampler does at the ends of its numbers, where few draws fall and much may happen.
+
+Looked at by plain Python calls, in cells that halve towards 0 and 1 of u[0] and of u[1], down to
+2^-OCTAVES, which a million random numbers may never meet.
+"""
+from __future__ import annotations
+
+import math
+import numbers
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.integration.probe import called
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.vectors import Vec
+
+#: cells towards each end of a number, and values of the other number in each
+OCTAVES, ACROSS = 24, 8
+GOLDEN = 0.6180339887498949  # the fraction of the golden ratio: its multiples never cluster
+
+
+class Ends(NamedTuple):
+    """Means over cells: cell k of an end holds a share 2^-(k + 2) of the draws."""
+
+    rejected: float = 0.0  # share of the draws that lie below the horizon, to a factor of 2
+    weights: tuple[tuple[float, ...], ...] = ()  # f cos/pdf over its mean, for every end
+
+    def spread(self, samples: float) -> float:
+        """What the draws nearest to the ends add to the relative error of a mean over points of
+        which one lies in each of `samples` slices of every number.
+
+        A weight like a logarithm at an end makes most of the error there, and spreads it like an
+        exponential: means of few randomisations often miss it all together.
+        """
+        first = max(0, int(math.log2(samples)) - 1)  # cell that is half of the last slice
+        variances = [_variance(row[first:]) for row in self.weights]
+        return math.sqrt(sum(v for v in variances if math.isfinite(v))) / samples
+
+
+def at_ends(model: Model, ready: Any, wo: Vec) -> Ends:
+    """The ends of the model's sampler, nothing without one."""
+    if model.sample is None:
+        return Ends()
+    rejected, weights, mean = [], [], 0.0
+    for axis in (0, 1):
+        cells = [[_cell(model, ready, wo, axis, k, end) for k in range(OCTAVES)] for end in (0, 1)]
+        rejected.append(_mean([[lost for _, lost in row] for row in cells]))
+        weights += [[w for w, _ in row] for row in cells]
+        mean += 0.5 * _mean(weights[-2:])
+    scale = 1.0 / mean if mean > 0.0 else math.nan
+    return Ends(max(rejected), tuple(tuple(scale * w for w in row) for row in weights))
+
+
+def _mean(rows: list[list[float]]) -> float:
+    """Over all cells of a number where the value is known."""
+    return sum(0.25 * 0.5**k * x for row in rows for k, x in enumerate(row) if math.isfinite(x))
+
+
+def _cell(model: Model, ready: Any, wo: Vec, axis: int, k: int, end: int) -> tuple[float, float]:
+    """The mean weight, and the share of rejected draws."""
+    t = abs(end - 0.375 * 0.5**k)
+    drawn = [_weight(model, ready, wo, _numbers(axis, t, k, j)) for j in range(ACROSS)]
+    weights = [w for w in drawn if w is not None]
+    return sum(weights) / ACROSS, 1.0 - len(weights) / ACROSS
+
+
+def _numbers(axis: int, t: float, k: int, j: int) -> Vec:
+    s, third = (j + 0.5) / ACROSS, math.modf(0.5 + (ACROSS * k + j) * GOLDEN)[0]
+    return (s, t, third) if axis else (t, s, third)
+
+
+def _weight(model: Model, ready: Any, wo: Vec, u: Vec) -> float | None:
+    """f cos/pdf of a draw, None below the horizon, NaN where it has none."""
+    w = called(model, "sample", model.sample, wo, u, ready)
+    if not (isinstance(w, tuple) and all(isinstance(c, numbers.Real) for c in w)):
+        return math.nan
+    if w[2] <= 0.0:
+        return None
+    if len(w) == 4:
+        return float(w[3])
+    pdf = _value(model, "pdf", model.pdf, wo, w, ready)
+    return _value(model, "f", model.f, wo, w, ready) * float(w[2]) / pdf if pdf else math.nan
+
+
+def _value(model: Model, member: str, function: Any, wo: Vec, wi: Any, ready: Any) -> float:
+    value = called(model, member, function, wo, wi[:3], ready) if function else math.nan
+    return float(value) if isinstance(value, numbers.Real) else math.nan
+
+
+def _variance(tail: tuple[float, ...]) -> float:
+    """Of weights in cells of which each holds half as many draws as the one before."""
+    share = [0.5**k for k in range(len(tail))]
+    mean = sum(s * w for s, w in zip(share, tail, strict=True)) / sum(share)
+    return sum(s * (w - mean) ** 2 for s, w in zip(share, tail, strict=True)) / sum(share)
