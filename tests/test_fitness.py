@@ -15,7 +15,7 @@ from montecarlo_brdf.checks.case import pointwise
 from montecarlo_brdf.checks.fitness import Sight, heeding_ends, heeding_rejected, look, reason_unfit
 from montecarlo_brdf.integration import methods, work
 from montecarlo_brdf.integration.compiled import compiled
-from montecarlo_brdf.integration.ends import Ends, at_ends
+from montecarlo_brdf.integration.ends import ACROSS, Ends, at_ends
 from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import from_degrees
 
@@ -127,15 +127,14 @@ def test_rejected_draws_widen_an_error_bar_while_they_are_too_few_to_count() -> 
 
 def test_what_a_logarithm_at_an_end_adds_to_an_error() -> None:
     """-ln u is spread by 1 in every slice that ends at 0; flat ends add nothing."""
-    flat = (1.0,) * 24
-    ends = Ends(0.0, (tuple(-math.log(0.375 * 0.5**k) for k in range(24)), flat, flat, flat))
+    flat, falling = (1.0,) * 24, tuple(-math.log(0.375 * 0.5**k) for k in range(24))
+    ends = Ends(0.0, (falling,) * ACROSS + (flat,) * 3 * ACROSS)
     for samples in (2, 64, 1024, 1 << 14):
         assert ends.spread(samples) == pytest.approx(1.0 / samples, rel=0.05)
     e = Estimate(2.0, 1e-6, 1 << 10, (2.0,) * 16, 4.0, 2.0)
     assert heeding_ends(e, ends).stderr == pytest.approx(2.0 / 64 / 4, rel=0.05)
-    assert heeding_ends(e, Ends(0.0, (flat,) * 4)) == e
-    unknown = Ends(0.0, ((math.nan,) * 24, flat, flat, flat))
-    assert heeding_ends(e, unknown) == e
+    assert heeding_ends(e, Ends(0.0, (flat,) * 4 * ACROSS)) == e
+    assert heeding_ends(e, Ends(0.0, ((math.nan,) * 24, flat))) == e
 
 
 def test_intervals_hold_where_the_draw_nearest_to_an_end_makes_the_error() -> None:

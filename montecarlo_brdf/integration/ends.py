@@ -19,10 +19,10 @@ GOLDEN = 0.6180339887498949  # the fraction of the golden ratio: its multiples n
 
 
 class Ends(NamedTuple):
-    """Means over cells: cell k of an end holds a share 2^-(k + 2) of the draws."""
+    """Of rows of cells towards an end, all other numbers fixed: cell k holds 2^-(k + 2) of all."""
 
     rejected: float = 0.0  # share of the draws that lie below the horizon, to a factor of 2
-    weights: tuple[tuple[float, ...], ...] = ()  # f cos/pdf over its mean, for every end
+    weights: tuple[tuple[float, ...], ...] = ()  # f cos/pdf over its mean, ACROSS rows for each end
 
     def spread(self, samples: float) -> float:
         """What the draws nearest to the ends add to the relative error of a mean over points of
@@ -33,7 +33,7 @@ class Ends(NamedTuple):
         """
         first = max(0, int(math.log2(samples)) - 1)  # cell that is half of the last slice
         variances = [_variance(row[first:]) for row in self.weights]
-        return math.sqrt(sum(v for v in variances if math.isfinite(v))) / samples
+        return math.sqrt(sum(v for v in variances if math.isfinite(v)) / ACROSS) / samples
 
 
 def at_ends(model: Model, ready: Any, wo: Vec) -> Ends:
@@ -42,29 +42,28 @@ def at_ends(model: Model, ready: Any, wo: Vec) -> Ends:
         return Ends()
     rejected, weights, mean = [], [], 0.0
     for axis in (0, 1):
-        cells = [[_cell(model, ready, wo, axis, k, end) for k in range(OCTAVES)] for end in (0, 1)]
-        rejected.append(_mean([[lost for _, lost in row] for row in cells]))
-        weights += [[w for w, _ in row] for row in cells]
-        mean += 0.5 * _mean(weights[-2:])
+        rows = [_row(model, ready, wo, axis, end, j) for end in (0, 1) for j in range(ACROSS)]
+        rejected.append(_mean([[float(w is None) for w in row] for row in rows]))
+        weights += [[w or 0.0 for w in row] for row in rows]
+        mean += 0.5 * _mean(weights[-len(rows) :])
     scale = 1.0 / mean if mean > 0.0 else math.nan
     return Ends(max(rejected), tuple(tuple(scale * w for w in row) for row in weights))
 
 
 def _mean(rows: list[list[float]]) -> float:
     """Over all cells of a number where the value is known."""
-    return sum(0.25 * 0.5**k * x for row in rows for k, x in enumerate(row) if math.isfinite(x))
+    cells = [0.25 * 0.5**k * x for row in rows for k, x in enumerate(row) if math.isfinite(x)]
+    return sum(cells) / ACROSS
 
 
-def _cell(model: Model, ready: Any, wo: Vec, axis: int, k: int, end: int) -> tuple[float, float]:
-    """The mean weight, and the share of rejected draws."""
-    t = abs(end - 0.375 * 0.5**k)
-    drawn = [_weight(model, ready, wo, _numbers(axis, t, k, j)) for j in range(ACROSS)]
-    weights = [w for w in drawn if w is not None]
-    return sum(weights) / ACROSS, 1.0 - len(weights) / ACROSS
+def _row(model: Model, ready: Any, wo: Vec, axis: int, end: int, j: int) -> list[float | None]:
+    """Weights towards an end of a number, None for a rejected draw."""
+    places = (abs(end - 0.375 * 0.5**k) for k in range(OCTAVES))
+    return [_weight(model, ready, wo, _numbers(axis, t, j)) for t in places]
 
 
-def _numbers(axis: int, t: float, k: int, j: int) -> Vec:
-    s, third = (j + 0.5) / ACROSS, math.modf(0.5 + (ACROSS * k + j) * GOLDEN)[0]
+def _numbers(axis: int, t: float, j: int) -> Vec:
+    s, third = (j + 0.5) / ACROSS, math.modf(0.5 + j * GOLDEN)[0]
     return (s, t, third) if axis else (t, s, third)
 
 
