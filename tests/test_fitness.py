@@ -131,6 +131,7 @@ def test_what_a_logarithm_at_an_end_adds_to_an_error() -> None:
     ends = Ends(0.0, (falling,) * ACROSS + (flat,) * 3 * ACROSS)
     for samples in (2, 64, 1024, 1 << 14):
         assert ends.spread(samples) == pytest.approx(1.0 / samples, rel=0.05)
+    assert ends.spread(1 << 40) == 0.0  # beyond what was looked at
     e = Estimate(2.0, 1e-6, 1 << 10, (2.0,) * 16, 4.0, 2.0)
     assert heeding_ends(e, ends).stderr == pytest.approx(2.0 / 64 / 4, rel=0.05)
     assert heeding_ends(e, Ends(0.0, (flat,) * 4 * ACROSS)) == e

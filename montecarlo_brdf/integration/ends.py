@@ -31,7 +31,8 @@ class Ends(NamedTuple):
         A weight like a logarithm at an end makes most of the error there, and spreads it like an
         exponential: means of few randomisations often miss it all together.
         """
-        first = max(0, int(math.log2(samples)) - 1)  # cell that is half of the last slice
+        half = int(math.log2(samples)) - 1  # the cell that is half of the last slice
+        first = min(max(0, half), OCTAVES - 1)
         variances = [_variance(row[first:]) for row in self.weights]
         return math.sqrt(sum(v for v in variances if math.isfinite(v)) / ACROSS) / samples
 
