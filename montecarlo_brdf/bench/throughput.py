@@ -13,7 +13,7 @@ from montecarlo_brdf.integration import build, integrands, kernel, parameters, w
 from montecarlo_brdf.integration.estimators import directional_albedo
 from montecarlo_brdf.integration.recipe import Recipe
 from montecarlo_brdf.loading import load
-from montecarlo_brdf.sampling.keys import NONE
+from montecarlo_brdf.sampling.points import NONE, SHAPES
 from montecarlo_brdf.vectors import from_degrees
 
 N = 1 << 18  # so many that what a call costs beside its samples does not show
@@ -39,7 +39,8 @@ def cosine_job(name: str, samples: int, points: str = "independent") -> Callable
     recipe = Recipe(points, (integrands.albedo_cosine,), {"F": model.f}, layout)
     entry = build.kernel_of(recipe)
     reals = (*from_degrees(60.0), 0.0, *numbers)
-    return lambda: work.Ladder(entry, reals, 1, 1, 1).states(samples, NONE)
+    shape = SHAPES[points](samples) if points in SHAPES else NONE
+    return lambda: work.Ladder(entry, reals, 1, 1, 1).states(samples, shape)
 
 
 def rates(rounds: int) -> list[dict[str, Any]]:
@@ -48,6 +49,7 @@ def rates(rounds: int) -> list[dict[str, Any]]:
     naive = integrand("W3").loop
     jobs: dict[str, Callable[[], Any]] = {"calibration: 4 sqrt + 1 div": lambda: limit(N)}
     jobs |= {name: cosine_job(name, N) for name in MODELS}
+    jobs["ggx at a lattice's points, which take no hash"] = cosine_job("ggx", N, "lattice")
     jobs["naive numba loop, ggx"] = lambda: naive(N)
     seconds: dict[str, list[float]] = {name: [] for name in jobs}
     for k in range(rounds + 1):
