@@ -54,7 +54,8 @@ class Estimate(NamedTuple):
 
     def effective_samples(self) -> float:
         """Kish's effective sample size, N mean^2 / E[x^2]."""
-        return self.samples * self.mean**2 / self.second_moment if self.second_moment else 0.0
+        square = self.mean * self.mean
+        return self.samples * square / self.second_moment if self.second_moment else 0.0
 
     def __str__(self) -> str:
         return with_error(self.mean, self.stderr)
@@ -118,9 +119,9 @@ def _estimate(columns: Sequence[tuple[float, ...]], method: str = "") -> Estimat
         nan = math.nan
         return Estimate(nan, nan, int(count * each), means, nan, max(largest), method)
     mean = math.fsum(means) / count
-    spread = math.fsum([(m - mean) * (m - mean) for m in means])
+    spread = _sum([(m - mean) * (m - mean) for m in means])
     stderr = math.sqrt(spread / (count * (count - 1))) if count > 1 else math.inf
-    variance = math.fsum(squares) / (count * each) + spread / count
+    variance = _sum(squares) / (count * each) + spread / count
     return Estimate(
         mean,
         max(stderr, least_error(mean, variance, count * each)),
@@ -130,6 +131,14 @@ def _estimate(columns: Sequence[tuple[float, ...]], method: str = "") -> Estimat
         max(largest),
         method,
     )
+
+
+def _sum(squares: Sequence[float]) -> float:
+    """Exactly rounded; infinite where numbers end."""
+    try:
+        return math.fsum(squares)
+    except OverflowError:
+        return math.inf
 
 
 def least_error(mean: float, variance: float, samples: float) -> float:

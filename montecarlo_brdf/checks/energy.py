@@ -33,6 +33,7 @@ NAME = "energy"
 QUESTION = "is ever more reflected than received?"
 PROPERTY = "energy"
 QUANTITIES = {"albedo": "A", "reverse": "R"}
+ENDS_ASKED = 45.0  # degrees, with parameters at the ends of their ranges
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -59,7 +60,7 @@ def _unasked(model: Model) -> Iterator[Claim]:
 
 def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, int]) -> Claim:
     case, value = space.case, search.albedo(space, quantity)
-    spot = search.worst(space, value)
+    spot = _at_ends(space, quantity, search.worst(space, value))
     p, fixed = space.parameters(spot.at), space.vector(spot.at)
     theta, phi = space.direction(spot.at)
     reverse = quantity == "reverse"
@@ -78,6 +79,19 @@ def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, i
         cause=_cause(space, spot, value),
         fallback=functools.partial(truth.deterministic, case.model, p, fixed, reverse=reverse),
     )
+
+
+def _at_ends(space: search.Space, quantity: str, spot: search.Spot) -> search.Spot:
+    """A worse place with parameters at the ends of their ranges, by a quadrature of f: a search by
+    the model's own sampler sees only what that draws."""
+    case = space.case
+    for p in interiors.ends(case) if case.model.sample else ():
+        position = interiors.position(case, p).values()
+        at = (ENDS_ASKED / search.LAST, *(0.0,) * space.turning, *position)
+        value, error = truth.quadrature(case.model, p, space.vector(at), quantity == "reverse")
+        if value - 2.0 * error > max(1.0, spot.value):
+            spot = search.Spot(at, value)
+    return spot
 
 
 def _cause(space: search.Space, spot: search.Spot, value: search.Value) -> str:

@@ -27,6 +27,8 @@ LARGEST_SHARE = 0.02
 SMALLEST = 1e-6
 #: Rejected draws, expected among the samples, from which their number tells their share.
 FEWEST_REJECTED = 16.0
+#: Means whose squares are numbers.
+SQUARED = (1e-150, 1e150)
 #: mu^c/pdf for these densities
 SCALE = {"uniform": 6.283185307179586, "cosine": 3.141592653589793}
 #: c in pdf ~ mu^c near the horizon
@@ -118,6 +120,8 @@ def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | Non
         return f"a lobe that {sampler} sampling did not hit once in {e.samples} samples"
     if not e.mean > 0.0:
         return None
+    if not SQUARED[0] < e.mean < SQUARED[1]:
+        return f"values of {e.mean:.0e}, whose squares leave the range of numbers"
     if sampler not in SCALE:
         return _few(sampler, e, e.second_moment, signed=sight.signed)
     if not moment_is_finite(2, sampler, sight.exponent):

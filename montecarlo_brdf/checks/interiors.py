@@ -74,11 +74,13 @@ def sets_inside(case: Case) -> Iterator[Any]:
 
 def ends(case: Case) -> Iterator[Any]:
     """Each free parameter exactly at either end of its range, and at 0 and 1 where these lie
-    inside, the others as they are."""
-    for name in case.free:
-        low, high = search_range(case.model, name) or (0.0, 0.0)
+    inside, the others as they are; then all at their low ends and all at their high ones."""
+    ranges = {name: search_range(case.model, name) or (0.0, 0.0) for name in case.free}
+    for name, (low, high) in ranges.items():
         for value in (low, *(v for v in (0.0, 1.0) if low < v < high), high):
             yield case.one._replace(**{name: float(value)})
+    for k in (0, 1) if len(ranges) > 1 else ():
+        yield case.one._replace(**{name: float(both[k]) for name, both in ranges.items()})
 
 
 #: polar angle and azimuth in degrees, for the k-th of the cases elsewhere
@@ -89,6 +91,13 @@ def elsewhere(case: Case) -> Iterator[tuple[Case, float]]:
     """The case turned, then other parameters at other angles: mistakes that defaults hide."""
     sets = [case.one, *itertools.islice(sets_inside(case), len(PLACES) - 1)]
     for p, (theta, phi) in zip(sets, PLACES, strict=False):
+        yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
+
+
+def at_ends(case: Case) -> Iterator[tuple[Case, float]]:
+    """The case with parameters at the ends of their ranges, where clamps and guards act."""
+    theta, phi = PLACES[0]
+    for p in ends(case):
         yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
 
 

@@ -19,7 +19,7 @@ import numpy as np
 
 Array = Any
 SMALLEST = 1e-7
-#: A value so many times as large as any at a node belongs to what the nodes have missed.
+#: A value so many times as large as any at the nodes around it belongs to what they have missed.
 MISSED = 10.0
 #: directions and the solid angle that each stands for
 Probes = tuple[Array, Array]
@@ -81,10 +81,12 @@ class Coordinates:
 
 
 class Integral(NamedTuple):
-    """A deterministic integral with an error estimate."""
+    """A deterministic integral with an error estimate, and what of that lies where probes alone saw
+    it."""
 
     value: float
     error: float
+    missed: float = 0.0
 
 
 def scale_of(wo: Array, wi: Array) -> float:
@@ -130,12 +132,27 @@ def integrate(
             break
         last = value
     error = error if np.isfinite(error) else abs(value)
-    missed = [_missed(function, probe, float(np.max(np.abs(values)))) for probe in probes]
-    return Integral(value, max(error, *missed, 0.0) + 1e-14 * abs(value))
+    highest = _highest_around(np.abs(values).reshape(nx, nb))
+    missed = max((_missed(function, probe, coordinates, highest) for probe in probes), default=0.0)
+    return Integral(value, max(error, missed) + 1e-14 * abs(value), missed)
 
 
-def _missed(function: Any, probe: Probes, highest: float) -> float:
-    """The integral of what is far above the highest value at a node."""
+def _highest_around(values: Array) -> Array:
+    """Of every node and its eight neighbours the highest; b goes around."""
+    b = np.maximum(values, np.maximum(np.roll(values, 1, axis=1), np.roll(values, -1, axis=1)))
+    padded = np.pad(b, ((1, 1), (0, 0)), mode="edge")
+    return np.maximum(b, np.maximum(padded[:-2], padded[2:]))
+
+
+def _missed(function: Any, probe: Probes, coordinates: Coordinates, highest: Array) -> float:
+    """The integral of what is far above the values at the nodes around it."""
     wi, angle = probe
+    if not len(wi):
+        return 0.0
     values = np.abs(function(wi))
-    return float(np.sum((values * angle)[values > MISSED * highest]))
+    x, b = coordinates.coordinates(wi)
+    nx, nb = highest.shape
+    node = np.polynomial.legendre.leggauss(nx)[0]
+    i = np.searchsorted(0.5 * (node[1:] + node[:-1]), 2.0 * x - 1.0)
+    j = np.minimum((b * nb).astype(int), nb - 1)
+    return float(np.sum((values * angle)[values > MISSED * highest[i, j]]))

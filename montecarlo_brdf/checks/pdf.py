@@ -4,7 +4,7 @@ int pdf by quadrature in coordinates that follow the lobe, plus the fraction of 
 rejected, is 1; pdf |dw/du1 x dw/du2| = 1 by finite differences where one direction belongs to one
 pair of numbers, and at least 1 where it belongs to several; a returned weight is f cos/pdf; drawn
 directions are finite unit vectors with pdf > 0, which is finite and not negative anywhere. All this
-also at other azimuths and parameters.
+also at other azimuths and parameters; what single draws tell also at the ends of their ranges.
 It cannot see: a density that is wrong in shape where the sampler chooses among lobes (`sampling`
 can).
 """
@@ -55,6 +55,10 @@ def claims(case: Case) -> Iterator[Claim]:
         if case.model.pdf is not None:
             if resolved(other, theta):
                 yield _normalisation(other, theta)
+            yield from _pointwise(other, theta)
+    for other, theta in interiors.at_ends(case):
+        yield _claim(other, theta, "drawn directions at fault", 0.0, drawn.faults)
+        if case.model.pdf is not None:
             yield from _pointwise(other, theta)
     if case.model.pdf is not None:
         yield _claim(case, None, "values of pdf at fault", 0.0, drawn.values)
@@ -109,6 +113,8 @@ def _normalisation(case: Case, theta: float) -> MeanClaim:
 def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:
     """The same where a density with steps is more than the quadrature resolves."""
     found = in_slopes.mass(case.model, case.one, case.wo(theta), seed)
+    if drawn.density_integral(case.model, case.one, case.wo(theta)).missed > MASS_TOLERANCE:
+        found = found._replace(unfit="a lobe where half vectors do not show it")
     rejected = _rejected(case, theta, Plan(samples=found.estimate.samples, seed=seed))
     stderr = math.hypot(found.estimate.stderr, rejected.stderr)
     whole = found.estimate._replace(mean=found.estimate.mean + rejected.mean, stderr=stderr)

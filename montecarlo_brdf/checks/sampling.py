@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import interiors
+from montecarlo_brdf.checks import drawn, interiors
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.cells import COARSE, FINE, FINEST, UNSURE, Cells
 from montecarlo_brdf.checks.claim import Claim, Fit, FitClaim, Skip
@@ -93,6 +93,9 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     mass = cells.tables[2]
     if not 0.0 < mass < HEAVIEST:
         return Fit(math.nan, math.inf, 1.0, 0, f"the pdf has mass {mass:.4g}: see `pdf`")
+    if drawn.density_integral(case.model, case.one, case.wo(theta)).missed > UNSURE:
+        hidden = "a lobe of pdf lies where half vectors do not show it"
+        return Fit(math.nan, math.inf, 1.0, 0, hidden)
     n = min(math.ceil(DRAWS * plan.samples), MOST)
     place = (theta, case.phi_o_deg, *case.one)
     key = stream(plan.seed, case.model.name, NAME, *place, n)
