@@ -33,6 +33,8 @@ LONG = {
     "oren_nayar_by_angles", "phong_u_reaches_0", "piecewise_sampler", "rejection_sampler",
     "retro_lobe", "retro_lobe_f_only", "zero_in_regions",
     "kinked_toon", "no_sampler", "rounded_below_zero",
+    "azimuth_in_slices", "grating", "rare_lobe_by_u0", "table_of_cells", "two_needles",
+    "values_of_1e160", "values_of_1e_minus_200",
 }  # fmt: skip
 
 
