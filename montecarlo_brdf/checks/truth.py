@@ -14,6 +14,7 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 #: numbers from which lobe coordinates learn the width of a sampler's lobe
 PILOT = 4096
 PROBES = 2048  # of these
+ROUNDING = 4.0 * 2.0**-52
 SHARPEST = 1e-5  # slope of the sharpest lobe that a model without a sampler may have
 
 
@@ -26,7 +27,7 @@ def independent(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) 
     """A(wo) from a formula that is not the model's f: declared by the user, or our reference."""
     mu = from_degrees(theta_deg)[2]
     if model.albedo:
-        return Reference(float(model.albedo(mu, one)), 0.0, "declared", f"albedo() of {model.name}")
+        return _declared(model, one, mu)
     if model.terms:
         parts = [
             (_weight(one, t), independent(t.model, t.parameters_of(one), theta_deg, phi_deg))
@@ -38,6 +39,15 @@ def independent(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) 
     turned = {} if model.isotropic else {"phi_o": math.radians(phi_deg)}
     truth = remembered.albedo(model.name, mu, **one._asdict(), **model.picks, **turned)
     return Reference(*truth) if truth else None
+
+
+def _declared(model: Model, one: Any, mu: float) -> Reference:
+    """What the model's file says, to rounding at the size that it has elsewhere: a sum that cancels
+    at one angle leaves that much there."""
+    assert model.albedo is not None
+    value, *others = (float(model.albedo(m, one)) for m in (mu, 0.1, 0.5, 1.0))
+    size = max((abs(v) for v in others if math.isfinite(v)), default=0.0)
+    return Reference(value, ROUNDING * size, "declared", f"albedo() of {model.name}")
 
 
 def same_f(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
