@@ -7,6 +7,7 @@ fresh stream and judged against 1. It cannot see: a peak narrower than the searc
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -33,7 +34,7 @@ NAME = "energy"
 QUESTION = "is ever more reflected than received?"
 PROPERTY = "energy"
 QUANTITIES = {"albedo": "A", "reverse": "R"}
-ENDS_ASKED = 45.0  # degrees, with parameters at the ends of their ranges
+UNDRAWN = (0.0, 45.0, 85.0)  # degrees at which a quadrature is asked too
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -60,7 +61,7 @@ def _unasked(model: Model) -> Iterator[Claim]:
 
 def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, int]) -> Claim:
     case, value = space.case, search.albedo(space, quantity)
-    spot = _at_ends(space, quantity, search.worst(space, value))
+    spot = _undrawn(space, quantity, search.worst(space, value))
     p, fixed = space.parameters(spot.at), space.vector(spot.at)
     theta, phi = space.direction(spot.at)
     reverse = quantity == "reverse"
@@ -81,13 +82,14 @@ def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, i
     )
 
 
-def _at_ends(space: search.Space, quantity: str, spot: search.Spot) -> search.Spot:
-    """A worse place with parameters at the ends of their ranges, by a quadrature of f: a search by
-    the model's own sampler sees only what that draws."""
+def _undrawn(space: search.Space, quantity: str, spot: search.Spot) -> search.Spot:
+    """A worse place by a quadrature of f, with parameters at the ends of their ranges and some
+    inside: a search by the model's own sampler sees only what that draws."""
     case = space.case
-    for p in interiors.ends(case) if case.model.sample else ():
+    sets = (*interiors.ends(case), *interiors.sets(case)) if case.model.sample else ()
+    for p, theta in itertools.product(sets, UNDRAWN):
         position = interiors.position(case, p).values()
-        at = (ENDS_ASKED / search.LAST, *(0.0,) * space.turning, *position)
+        at = (theta / search.LAST, *(0.0,) * space.turning, *position)
         value, error = truth.quadrature(case.model, p, space.vector(at), quantity == "reverse")
         if value - 2.0 * error > max(1.0, spot.value):
             spot = search.Spot(at, value)

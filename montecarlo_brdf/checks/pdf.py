@@ -4,7 +4,7 @@ int pdf by quadrature in coordinates that follow the lobe, plus the fraction of 
 rejected, is 1; pdf |dw/du1 x dw/du2| = 1 by finite differences where one direction belongs to one
 pair of numbers, and at least 1 where it belongs to several; a returned weight is f cos/pdf; drawn
 directions are finite unit vectors with pdf > 0, which is finite and not negative anywhere. All this
-also at other azimuths and parameters; what single draws tell also at the ends of their ranges.
+also at other azimuths and parameters, and at the ends of their ranges.
 It cannot see: a density that is wrong in shape where the sampler chooses among lobes (`sampling`
 can).
 """
@@ -50,15 +50,11 @@ def claims(case: Case) -> Iterator[Claim]:
         if case.model.pdf is not None:
             yield _normalisation(case, theta)
             yield from _pointwise(case, theta)
-    for other, theta in (*interiors.elsewhere(case), (case, GRAZING)):
+    for other, theta in (*interiors.elsewhere(case), (case, GRAZING), *interiors.at_ends(case)):
         yield _claim(other, theta, "drawn directions at fault", 0.0, drawn.faults)
         if case.model.pdf is not None:
             if resolved(other, theta):
                 yield _normalisation(other, theta)
-            yield from _pointwise(other, theta)
-    for other, theta in interiors.at_ends(case):
-        yield _claim(other, theta, "drawn directions at fault", 0.0, drawn.faults)
-        if case.model.pdf is not None:
             yield from _pointwise(other, theta)
     if case.model.pdf is not None:
         yield _claim(case, None, "values of pdf at fault", 0.0, drawn.values)

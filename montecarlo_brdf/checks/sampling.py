@@ -48,7 +48,9 @@ def claims(case: Case) -> Iterator[Claim]:
             refined(case, theta, tables(case, theta), case.tolerated(TOLERANCE), FINE, FINEST),
             property=PROPERTY,
         )
-    for other, theta in interiors.elsewhere(case):
+    # one lobe of several can be wrong where only all of them together tell
+    ends = interiors.at_ends(case) if drawn.chooses(case, case.theta_o_deg[0]) else ()
+    for other, theta in (*interiors.elsewhere(case), *ends):
         cells = tables(other, theta)
         if 0.0 < cells(COARSE).tables[2] < HEAVIEST:  # else see `pdf`
             yield _elsewhere(other, theta, cells)
