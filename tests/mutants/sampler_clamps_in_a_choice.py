@@ -62,7 +62,8 @@ domain = {"alpha": (0.02, 0.9)}
 
 
 def f(wo, wi, p):
-    return 0.5 * density(half(wo, wi), p.alpha) * masking(wo, wi, p.alpha) / (4.0 * wo[2] * wi[2]) + 0.4 / math.pi
+    lobe = density(half(wo, wi), p.alpha) * masking(wo, wi, p.alpha) / (4.0 * wo[2] * wi[2])
+    return 0.5 * lobe + 0.4 / math.pi
 
 
 def sample(wo, u, p):
