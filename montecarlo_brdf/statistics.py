@@ -137,7 +137,7 @@ def _sum(squares: Sequence[float]) -> float:
     """Exactly rounded; infinite where numbers end."""
     try:
         return math.fsum(squares)
-    except OverflowError:
+    except (OverflowError, ValueError):  # the second is infinity less infinity
         return math.inf
 
 

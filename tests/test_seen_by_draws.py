@@ -70,9 +70,10 @@ def test_energy_is_asked_where_the_sampler_does_not_draw() -> None:
     assert worst.where["blend"] == 1.0
 
 
-@pytest.mark.parametrize("value", [1e160, 1e-200])
+@pytest.mark.parametrize("value", [1e152, 1e160, 1e-200])
 def test_squares_beyond_the_range_of_numbers_are_no_crash(value: float) -> None:
     means = [value * (1.0 + 0.1 * k) for k in range(16)]
     e = estimate([Moments(64.0, m, 64.0 * (0.1 * m) * m, 2.0 * m) for m in means])
     assert e.mean == pytest.approx(1.75 * value)
     assert e.effective_samples() >= 0.0 or math.isnan(e.effective_samples())
+    assert estimate([Moments(64.0, value, -math.inf, 1.0), Moments(64.0, value, math.inf, 1.0)])

@@ -36,13 +36,24 @@ def pipeline() -> Any:
         name = fndesc.qualname.split(".")[-1]
         return _dynfunc.make_function(fndesc.lookup_module(), name, "", 0, env, (library,))
 
+    def stored(context: Any, builder: Any, kind: Any, array: Any) -> Any:
+        """A table in the code itself, of any size: numba would keep the address of a large one,
+        which means nothing to the next process that finds the code on disk."""
+        context.allow_dynamic_globals = False
+        try:
+            return type(context).make_constant_array(context, builder, kind, array)
+        finally:
+            context.allow_dynamic_globals = True
+
     @compiler_machinery.register_pass(mutates_CFG=True, analysis_only=False)
     class Lowering(typed_passes.NativeLowering):  # type: ignore[misc]
         _name = "lowering_to_a_part"
 
         def run_pass(self, state: Any) -> bool:
             state.library = Part(state.targetctx.codegen(), state.func_id.func_qualname)
-            state.targetctx.get_executable = handle  # of a context that is this function's own
+            context = state.targetctx  # this function's own
+            context.get_executable = handle
+            context.make_constant_array = functools.partial(stored, context)
             return bool(super().run_pass(state))
 
     class Compiler(compiler.CompilerBase):  # type: ignore[misc]

@@ -74,7 +74,7 @@ class Specialiser:
             return self._function(value)
         if is_own_module(value):
             return self._module(value, code)
-        return value
+        return contiguous(value)
 
     def _function(self, function: types.FunctionType) -> Any:
         if id(function) not in self._done:
@@ -92,3 +92,19 @@ class Specialiser:
             ).items():  # they may use it
                 setattr(stand_in, name, self._counterpart(value, code))
         return self._modules[key]
+
+
+def contiguous(value: Any) -> Any:
+    """Tables as compiled code stores them: numba would keep the address of one with gaps."""
+    if isinstance(value, tuple):
+        items = [contiguous(item) for item in value]
+        same = all(new is old for new, old in zip(items, value, strict=True))
+        return value if same else _tuple_like(value, items)
+    flags = getattr(value, "flags", None)
+    if getattr(flags, "forc", True):
+        return value
+    return value.copy(order="C")
+
+
+def _tuple_like(value: Any, items: list[Any]) -> Any:
+    return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
