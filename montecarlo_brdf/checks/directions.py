@@ -27,7 +27,7 @@ SPECIAL = 2_000
 SCATTERED = 100_000  # pairs with parameters of their own
 PREPARED = 32  # different ones where the model prepares them
 MIRROR = np.array([-1.0, -1.0, 1.0])
-NEIGHBOURS = 8
+NEIGHBOURS = 64
 TURNS = 16  # azimuths of wi, the mirror direction's among them
 ROUNDING = 1e-12  # of |f| between the same polar angles: what is smaller is rounding
 SUSPECTS = 256  # pairs at a time that rounding may explain
@@ -120,9 +120,13 @@ def rounding(f: Any, wo: Array, wi: Array, rng: Any) -> Array:
     was found, nothing was found."""
     before, noise = f(wo, wi), np.zeros(len(wo))
     for _ in range(NEIGHBOURS):
-        moved = (w * (1.0 + 2.0**-52 * rng.integers(-2, 3, w.shape)) for w in (wo, wi))
+        moved = (w + 2.0**-52 * (w * _ulps(rng, w) + _ulps(rng, w)) for w in (wo, wi))
         noise = np.fmax(noise, np.abs(f(*moved) - before))
     return noise
+
+
+def _ulps(rng: Any, w: Array) -> Array:
+    return rng.integers(-2, 3, w.shape)
 
 
 def around(f: Any, wo: Array, wi: Array) -> Array:

@@ -43,7 +43,7 @@ print(mb.directional_albedo(model, p, 60.0, samples=4096, sampler="cosine").mean
 
 
 def test_tables_are_the_same_in_the_next_process(tmp_path: Path) -> None:
-    """numba keeps the address of a table with gaps or of more than 1 MB: the next process crashed."""
+    """numba keeps the address of one with gaps or of more than 1 MB: the next process crashed."""
     model = tmp_path / "tables.py"
     model.write_text(MODEL, encoding="utf-8")
     env = {**os.environ, "BRDF_CHECK_CACHE_DIR": str(tmp_path / "cache")}
