@@ -170,11 +170,13 @@ def _differences(case: Case, theta: float, h: float) -> Exact:
     if value <= JACOBIAN_TOLERANCE:
         return Exact(value, points=len(w))
     below = float(np.quantile(1.0 - ratio, 1.0 - SEAMS))
-    little = float(np.minimum(ratio, CLIPPED).mean()) <= 1.0 + LITTLE
-    if below <= JACOBIAN_TOLERANCE and (little or _belongs_to_several(case, theta, ratio, len(u))):
-        # the pdf is the sum over all of them, and can only be too small for one
-        several = "a direction belongs to several pairs of numbers: see `sampling`"
-        return Exact(max(0.0, below), points=len(w), note=several)
+    if below <= JACOBIAN_TOLERANCE:  # of several pairs pdf is the sum, too small for none of them
+        if _belongs_to_several(case, theta, ratio, len(u)):
+            several = "a direction belongs to several pairs of numbers: see `sampling`"
+            return Exact(max(0.0, below), points=len(w), note=several)
+        if float(np.minimum(ratio, CLIPPED).mean()) <= 1.0 + LITTLE:
+            little = "pdf is a little above the density of some draws: the mass and `sampling` tell"
+            return Exact(max(0.0, below), points=len(w), note=little)
     return Exact(value, points=len(w), hint=_ratio(functions.pdf, area, wo, w))
 
 

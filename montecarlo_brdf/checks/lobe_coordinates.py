@@ -133,7 +133,8 @@ def integrate(
         last = value
     error = error if np.isfinite(error) else abs(value)
     highest = _highest_around(np.abs(values).reshape(nx, nb))
-    missed = max((_missed(function, probe, coordinates, highest) for probe in probes), default=0.0)
+    place = coordinates, x.reshape(nx, nb)[:, 0], highest
+    missed = max((_missed(function, probe, *place) for probe in probes), default=0.0)
     return Integral(value, max(error, missed) + 1e-14 * abs(value), missed)
 
 
@@ -144,15 +145,15 @@ def _highest_around(values: Array) -> Array:
     return np.maximum(b, np.maximum(padded[:-2], padded[2:]))
 
 
-def _missed(function: Any, probe: Probes, coordinates: Coordinates, highest: Array) -> float:
+def _missed(
+    function: Any, probe: Probes, coordinates: Coordinates, nodes: Array, highest: Array
+) -> float:
     """The integral of what is far above the values at the nodes around it."""
     wi, angle = probe
     if not len(wi):
         return 0.0
     values = np.abs(function(wi))
     x, b = coordinates.coordinates(wi)
-    nx, nb = highest.shape
-    node = np.polynomial.legendre.leggauss(nx)[0]
-    i = np.searchsorted(0.5 * (node[1:] + node[:-1]), 2.0 * x - 1.0)
-    j = np.minimum((b * nb).astype(int), nb - 1)
+    i = np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), x)
+    j = np.minimum((b * highest.shape[1]).astype(int), highest.shape[1] - 1)
     return float(np.sum((values * angle)[values > MISSED * highest[i, j]]))
