@@ -91,13 +91,24 @@ def _from_file(path: Path) -> types.ModuleType:
     module = types.ModuleType(path.stem)
     module.__file__ = str(path)
     try:
-        with _no_bytecode():
+        with _no_bytecode(), _known(module):
             exec(_compiled(path), vars(module))  # noqa: S102
     except SyntaxError as error:
         raise ModelError(f"{path}, line {error.lineno or 1}: {error.msg}") from error
     except (Exception, SystemExit) as error:
         raise ModelError(f"{path} {raised(error, path)} while it was loaded") from error
     return module
+
+
+@contextlib.contextmanager
+def _known(module: types.ModuleType) -> Iterator[None]:
+    """A module under its name while it runs, as dataclasses expect, unless another has the name."""
+    mine = sys.modules.setdefault(module.__name__, module) is module
+    try:
+        yield
+    finally:
+        if mine:
+            sys.modules.pop(module.__name__, None)
 
 
 def _compiled(path: Path) -> types.CodeType:

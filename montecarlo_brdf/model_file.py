@@ -8,7 +8,7 @@ import types
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.errors import ModelError, unknown
 from montecarlo_brdf.model import Model, NoParams
 
 
@@ -29,6 +29,8 @@ def build(
         disclaims.update(option["disclaims"])
     _check_arguments(name, bound)
     _check_domain(name, domain)
+    if not choices:  # of which each brings parameters of its own
+        _check_known(name, domain, params)
     optional = ("sample", "pdf", "prepare", "albedo", "same_as", "scales_with", "lobe")
     given: dict[str, Any] = {k: bound.get(k) for k in optional}
     return Model(
@@ -109,6 +111,14 @@ def _check_domain(name: str, domain: Mapping[str, Any]) -> None:
             raise ModelError(
                 f"domain of model {name} must give {field_name} as (low, high), not {bounds!r}"
             )
+
+
+def _check_known(name: str, domain: Mapping[str, Any], params: Any) -> None:
+    """domain names parameters only."""
+    for field_name in domain:
+        if field_name not in params._fields:
+            problem = unknown(f"parameter of model {name}", field_name, params._fields)
+            raise ModelError(f"domain: {problem}")
 
 
 def _check_arguments(name: str, bound: Mapping[str, Any]) -> None:

@@ -62,9 +62,14 @@ def pointwise(model: Model, p: Any) -> Pointwise:
 
 
 def searched(model: Model, fixed: Mapping[str, Any]) -> tuple[str, ...]:
-    """Parameters that a worst-case search may vary: those nobody fixed and whose range is known."""
-    names = model.Params._fields  # type: ignore[attr-defined]
-    return tuple(n for n in names if n not in fixed and search_range(model, n) is not None)
+    """Parameters that a worst-case search may vary: those nobody fixed and whose range is known.
+
+    Weights of a mixture have no range: the sum of them is what its author chose.
+    """
+    weights = {f"{t.prefix}_weight" for t in model.terms}
+    names = [n for n in model.Params._fields if n not in weights]  # type: ignore[attr-defined]
+    asked = [n for n in names if not {n, model.labels.get(n, n)} & set(fixed)]
+    return tuple(n for n in asked if search_range(model, n) is not None)
 
 
 def search_range(model: Model, name: str) -> tuple[float, float] | None:

@@ -164,7 +164,7 @@ def curves(model: Model, p: Any, last: float, phi_deg: float) -> list[list[tuple
 def units(model: Model, one: Any) -> dict[str, float]:
     """What a hint may compare A with: the parameter that the model scales with."""
     names = [model.scales_with] if model.scales_with else list(one._fields)
-    return {n: getattr(one, n) for n in names if getattr(one, n)}
+    return {model.labels.get(n, n): getattr(one, n) for n in names if getattr(one, n)}
 
 
 def of_channel(measured: Any, k: int, plan: Plan) -> list[Measurement]:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -16,19 +17,21 @@ def progress(title: str) -> Iterator[Callable[[float], None]]:
     started = time.monotonic()
     bar: Any = None
     task: Any = None
+    one_at_a_time = threading.Lock()  # checks side by side all tell how far they are
 
     def update(done: float) -> None:
         nonlocal bar, task
-        if bar is None:
-            if time.monotonic() - started < PATIENCE or not sys.stderr.isatty():
-                return
-            from rich.console import Console
-            from rich.progress import Progress
+        if time.monotonic() - started < PATIENCE or not (sys.stderr and sys.stderr.isatty()):
+            return
+        with one_at_a_time:
+            if bar is None:
+                from rich.console import Console
+                from rich.progress import Progress
 
-            bar = Progress(console=Console(stderr=True), transient=True)
-            bar.start()
-            task = bar.add_task(title, total=1.0)
-        bar.update(task, completed=done)
+                bar = Progress(console=Console(stderr=True), transient=True)
+                bar.start()
+                task = bar.add_task(title, total=1.0)
+            bar.update(task, completed=done)
 
     try:
         yield update

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from pathlib import Path
 from typing import Any
 
@@ -69,7 +70,8 @@ def albedo_figure(report: dict[str, Any]) -> Any:
     top.set_ylabel("directional albedo A")
     top.set_ylim(0.0, 1.08 * max(1.0, top.dataLim.y1))
     top.set_title(_title(report, len(shown)), fontsize=10)
-    bottom.set_yscale("log")
+    if 0.0 < bottom.dataLim.y1 < math.inf:  # else nothing but NaN is drawn
+        bottom.set_yscale("log")
     bottom.set_ylabel("|A - reference|")
     bottom.set_xlabel("angle of the viewer theta_o (degrees)")
     bottom.set_xlim(-2.0, 92.0)
