@@ -9,7 +9,7 @@ class Params(NamedTuple):
     n: float = 1e6
 
 
-domain = {"ks": (0.0, 1.0), "n": (0.0, 1e6)}
+domain = {"ks": (0.0, 1.0), "n": (1.0, 1e6)}
 
 
 def dot(a, b):

@@ -9,7 +9,7 @@ class Params(NamedTuple):
     n: float = 32.0
 
 
-domain = {"ks": (0.0, 1.0), "n": (0.0, 1000.0)}
+domain = {"ks": (0.0, 1.0), "n": (1.0, 1000.0)}
 
 
 def dot(a, b):
