@@ -96,7 +96,10 @@ def _cosine_probes() -> tuple[Any, Any]:
 
 
 def own_probes(model: Model, one: Any, fixed: Any) -> tuple[Any, ...]:
-    """Draws of the model's sampler, and the solid angle that each stands for; none without one."""
+    """Draws of the model's sampler, and the solid angle that each stands for; none without one.
+
+    Draws that are no unit vectors lie nowhere.
+    """
     import numpy as np
 
     from montecarlo_brdf.checks.case import pointwise
@@ -105,7 +108,8 @@ def own_probes(model: Model, one: Any, fixed: Any) -> tuple[Any, ...]:
         return ()
     drawn = _drawn(model, one, tuple(map(float, fixed)))[1]
     density = pointwise(model, one).pdf(np.array(fixed), drawn)
-    known = np.isfinite(density) & (density > 0.0)
+    unit = np.abs(np.sum(drawn * drawn, axis=1) - 1.0) < 1e-3
+    known = np.isfinite(density) & (density > 0.0) & unit
     return ((drawn[known], 1.0 / (PROBES * density[known])),)
 
 
