@@ -75,7 +75,7 @@ def subjects() -> dict[str, tuple[Any, str, tuple[str, ...]]]:
 
 def run(model: Any, check: str, findings: tuple[str, ...], seed: int) -> str:
     """The verdict of a run: the worst of the findings, from nothing but compiled code."""
-    drawn.density_integral.cache_clear()
+    drawn.density_integral_of.cache_clear()
     truth.quadrature.cache_clear()
     p = model.parameters()
     case = Case(model, p, [THETA], seed=seed)

@@ -16,7 +16,7 @@ from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
 from montecarlo_brdf.checks.claim import Exact
 from montecarlo_brdf.checks.hints import azimuth_named, moved_named, shape_named, wider_named
-from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
+from montecarlo_brdf.checks.lobe_coordinates import Coordinates, Integral, integrate
 from montecarlo_brdf.checks.truth import lobe_scale, own_probes
 from montecarlo_brdf.integration.probe import returns_weight
 
@@ -68,9 +68,13 @@ def chooses(case: Case, theta: float) -> bool:
     return False
 
 
-@functools.lru_cache(maxsize=128)
-def density_integral(case_model: Any, one: Any, wo: Any) -> Any:
+def density_integral(case: Case, theta: float) -> Integral:
     """int pdf over the hemisphere, by quadrature."""
+    return density_integral_of(case.model, case.one, case.wo(theta))
+
+
+@functools.lru_cache(maxsize=128)
+def density_integral_of(case_model: Any, one: Any, wo: Any) -> Integral:
     direction = np.array(wo)
     coordinates = Coordinates(direction, lobe_scale(case_model, one, direction))
     functions = pointwise(case_model, one)
@@ -186,7 +190,7 @@ def _differences(case: Case, theta: float, h: float) -> Exact:
 def _belongs_to_several(case: Case, theta: float, ratio: Any, drawn: int) -> bool:
     """Whether directions are drawn by more than one pair of numbers each (an azimuth folded, a
     number used twice): then pdf times Jacobian adds up to more than int pdf, whatever pdf is."""
-    found = density_integral(case.model, case.one, case.wo(theta))
+    found = density_integral(case, theta)
     least = np.minimum(ratio, CLIPPED)
     spread = math.sqrt(float(np.sum((least - least.mean()) ** 2))) / drawn
     return bool(least.sum() / drawn - SURE * spread > found.value + found.error + EXCESS)

@@ -72,7 +72,7 @@ def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
 
 def resolved(case: Case, theta: float) -> bool:
     """Whether the quadrature of pdf is good enough to judge by."""
-    found = drawn.density_integral(case.model, case.one, case.wo(theta))
+    found = drawn.density_integral(case, theta)
     return bool(found.error <= 0.25 * MASS_TOLERANCE)
 
 
@@ -109,7 +109,7 @@ def _normalisation(case: Case, theta: float) -> MeanClaim:
 def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:
     """The same where a density with steps is more than the quadrature resolves."""
     found = in_slopes.mass(case.model, case.one, case.wo(theta), seed)
-    if drawn.density_integral(case.model, case.one, case.wo(theta)).missed > MASS_TOLERANCE:
+    if drawn.density_integral(case, theta).missed > MASS_TOLERANCE:
         found = found._replace(unfit="a lobe where half vectors do not show it")
     rejected = _rejected(case, theta, Plan(samples=found.estimate.samples, seed=seed))
     stderr = math.hypot(found.estimate.stderr, rejected.stderr)
@@ -125,7 +125,7 @@ def _rejected(case: Case, theta: float, plan: Plan) -> Estimate:
 
 def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     """int pdf by quadrature plus the rejected fraction by draws."""
-    integral = drawn.density_integral(case.model, case.one, case.wo(theta))
+    integral = drawn.density_integral(case, theta)
     rejected = _rejected(case, theta, plan)
     unfit = None
     if not integral.error <= 0.25 * case.tolerated(MASS_TOLERANCE) + 1e-9:

@@ -95,7 +95,7 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     mass = cells.tables[2]
     if not 0.0 < mass < HEAVIEST:
         return Fit(math.nan, math.inf, 1.0, 0, f"the pdf has mass {mass:.4g}: see `pdf`")
-    if drawn.density_integral(case.model, case.one, case.wo(theta)).missed > UNSURE:
+    if drawn.density_integral(case, theta).missed > UNSURE:
         hidden = "a lobe of pdf lies where half vectors do not show it"
         return Fit(math.nan, math.inf, 1.0, 0, hidden)
     n = min(math.ceil(DRAWS * plan.samples), MOST)

@@ -9,7 +9,7 @@ import math
 import numbers
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.integration.probe import called
+from montecarlo_brdf.integration.probe import called, number_from
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec
 
@@ -77,13 +77,11 @@ def _weight(model: Model, ready: Any, wo: Vec, u: Vec) -> float | None:
         return None
     if len(w) == 4:
         return float(w[3])
-    pdf = _value(model, "pdf", model.pdf, wo, w, ready)
-    return _value(model, "f", model.f, wo, w, ready) * float(w[2]) / pdf if pdf else math.nan
-
-
-def _value(model: Model, member: str, function: Any, wo: Vec, wi: Any, ready: Any) -> float:
-    value = called(model, member, function, wo, wi[:3], ready) if function else math.nan
-    return float(value) if isinstance(value, numbers.Real) else math.nan
+    if model.pdf is None:
+        return math.nan
+    pdf = number_from(model, "pdf", model.pdf, wo, w, ready)
+    f = number_from(model, "f", model.f, wo, w, ready)
+    return f * float(w[2]) / pdf if pdf else math.nan
 
 
 def _variance(tail: tuple[float, ...]) -> float:

@@ -116,5 +116,10 @@ def _at_cosine(mu: float, phi: float) -> Vec:
 
 
 def _value(model: Model, wo: Vec, wi: Vec, ready: Any) -> float:
-    value = called(model, "f", model.f, wo, wi, ready)
+    return number_from(model, "f", model.f, wo, wi, ready)
+
+
+def number_from(model: Model, member: str, function: Any, *arguments: Any) -> float:
+    """What a function of a model returns, NaN where that is no number."""
+    value = called(model, member, function, *arguments)
     return float(value) if isinstance(value, numbers.Real) else math.nan
