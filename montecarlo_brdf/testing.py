@@ -22,9 +22,9 @@ from typing import Any
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.model_file import build
-from montecarlo_brdf.report.findings import Report
 from montecarlo_brdf.report.sentences import case, failures
 from montecarlo_brdf.verify.common import Deadline
 from montecarlo_brdf.verify.run import run

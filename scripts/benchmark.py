@@ -16,9 +16,9 @@ from typing import Any
 
 from montecarlo_brdf.bench import measure, throughput
 from montecarlo_brdf.bench.workloads import WORKLOADS
+from montecarlo_brdf.judge.finding import versions
 from montecarlo_brdf.report.bench_markdown import markdown
 from montecarlo_brdf.report.bench_plots import bench_figure
-from montecarlo_brdf.report.findings import versions
 from montecarlo_brdf.report.plots import save
 
 RESULTS = Path(__file__).parent / "results"

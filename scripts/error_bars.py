@@ -27,7 +27,7 @@ from montecarlo_brdf.integration.evaluate import estimates
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.samplers import integrand, integrand_name, query
 from montecarlo_brdf.integration.subject import subject_of
-from montecarlo_brdf.report.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
+from montecarlo_brdf.judge.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
 from montecarlo_brdf.vectors import from_degrees
 
 TARGET = Path(__file__).parent / "results" / "error_bars.json"

@@ -41,7 +41,7 @@ from montecarlo_brdf.integration.evaluate import evaluate
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.samplers import integrand_name, query, samplers_of
 from montecarlo_brdf.integration.subject import subject_of
-from montecarlo_brdf.report.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
+from montecarlo_brdf.judge.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
 from montecarlo_brdf.vectors import from_degrees
 
 ROOT = Path(__file__).parents[1]

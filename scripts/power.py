@@ -28,8 +28,8 @@ from montecarlo_brdf import checks, references
 from montecarlo_brdf.checks import drawn, truth
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.models import ggx
-from montecarlo_brdf.report.judge import decide
 from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "power.json"

@@ -23,10 +23,10 @@ from environment import describe
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import MeanClaim, Measurement
 from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.report.judge import decide
-from montecarlo_brdf.report.mean import OF_F_ALONE, OF_SAME_F
+from montecarlo_brdf.judge.claim import MeanClaim, Measurement
+from montecarlo_brdf.judge.decide import decide
+from montecarlo_brdf.judge.mean import OF_F_ALONE, OF_SAME_F
 from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "resolves.json"

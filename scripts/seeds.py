@@ -23,9 +23,9 @@ from environment import describe
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks, loading
 from montecarlo_brdf.checks.case import Case, searched
-from montecarlo_brdf.checks.claim import FitClaim, MeanClaim
 from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.report.judge import decide
+from montecarlo_brdf.judge.claim import FitClaim, MeanClaim
+from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
 from montecarlo_brdf.verify.run import RUN_ANGLES
 

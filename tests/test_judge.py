@@ -9,14 +9,14 @@ import pytest
 from scipy import stats
 
 from montecarlo_brdf import student
-from montecarlo_brdf.checks.claim import MeanClaim, Measurement, Reference
 from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.report import mean as judging
-from montecarlo_brdf.report.findings import Finding, Report, Result, worst
-from montecarlo_brdf.report.judge import LEVEL, decide
-from montecarlo_brdf.report.looks import FIRST_LOOK, GROWTH, looks
-from montecarlo_brdf.report.mean import CONFIRMING_REPLICATES
-from montecarlo_brdf.report.opinions import LUCK, Opinion, judged
+from montecarlo_brdf.judge import mean as judging
+from montecarlo_brdf.judge.claim import MeanClaim, Measurement, Reference
+from montecarlo_brdf.judge.decide import LEVEL, decide
+from montecarlo_brdf.judge.finding import Finding, Report, Result, worst
+from montecarlo_brdf.judge.looks import FIRST_LOOK, GROWTH, looks
+from montecarlo_brdf.judge.mean import CONFIRMING_REPLICATES
+from montecarlo_brdf.judge.opinions import LUCK, Opinion, judged
 from montecarlo_brdf.statistics import Estimate
 
 PLAN = Plan(samples=1 << 20)

@@ -86,7 +86,7 @@ def test_every_option_of_every_command_is_explained() -> None:
 
 def test_exit_codes_are_those_of_the_program() -> None:
     from montecarlo_brdf import cli, errors
-    from montecarlo_brdf.report.findings import EXIT_CODES
+    from montecarlo_brdf.judge.finding import EXIT_CODES
 
     used = {*EXIT_CODES.values(), cli.INTERNAL_ERROR, cli.INTERRUPTED}
     used |= {e.exit_code for e in (errors.UserError, errors.ModelError, errors.OutputError)}

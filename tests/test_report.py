@@ -11,7 +11,7 @@ import pytest
 from conftest import Outcome
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.report.findings import SEVERITY, Finding, Report, Result
+from montecarlo_brdf.judge.finding import SEVERITY, Finding, Report, Result
 
 Command = Callable[..., Outcome]
 

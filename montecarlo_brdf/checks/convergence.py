@@ -15,11 +15,11 @@ from typing import NamedTuple
 from montecarlo_brdf import student
 from montecarlo_brdf.checks import drawn
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import Reference
 from montecarlo_brdf.integration.charted import CHARTS
 from montecarlo_brdf.integration.evaluate import estimates
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.samplers import integrand_name
+from montecarlo_brdf.judge.claim import Reference
 
 NAME = "convergence"
 

@@ -14,11 +14,11 @@ import numpy as np
 
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import Exact
 from montecarlo_brdf.checks.hints import azimuth_named, moved_named, shape_named, wider_named
 from montecarlo_brdf.checks.lobe_coordinates import Coordinates, Integral, integrate
 from montecarlo_brdf.checks.truth import lobe_scale, own_probes
 from montecarlo_brdf.integration.probe import returns_weight
+from montecarlo_brdf.judge.claim import Exact
 
 NAME = "pdf"  # whose streams these are
 STEP, SHORTER = 1e-5, 1e-7

@@ -16,7 +16,10 @@ import numpy as np
 
 from montecarlo_brdf.checks import fitness, furnace, interiors, search, truth
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import (
+from montecarlo_brdf.integration.evaluate import estimates
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
+from montecarlo_brdf.judge.claim import (
     BOUND_TOLERANCE,
     Claim,
     MeanClaim,
@@ -24,9 +27,6 @@ from montecarlo_brdf.checks.claim import (
     Reference,
     Skip,
 )
-from montecarlo_brdf.integration.evaluate import estimates
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip, worst_of
 from montecarlo_brdf.checks.hints import dependence_named, moved_named, shape_named
 from montecarlo_brdf.integration import scattered
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference, Skip, worst_of
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model
 

@@ -11,9 +11,9 @@ import functools
 import math
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.checks.claim import Measurement
 from montecarlo_brdf.integration import probe
 from montecarlo_brdf.integration.ends import Ends, at_ends
+from montecarlo_brdf.judge.claim import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.vectors import Vec

@@ -14,7 +14,11 @@ from typing import Any
 
 from montecarlo_brdf.checks import fitness, truth
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import (
+from montecarlo_brdf.integration import adaptive
+from montecarlo_brdf.integration.evaluate import estimates
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
+from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
     BOUND_TOLERANCE,
     Claim,
@@ -24,10 +28,6 @@ from montecarlo_brdf.checks.claim import (
     Measurement,
     Reference,
 )
-from montecarlo_brdf.integration import adaptive
-from montecarlo_brdf.integration.evaluate import estimates
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.vectors import Vec
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks.claim import MeanClaim
+from montecarlo_brdf.judge.claim import MeanClaim
 
 #: ratio of what was found to what was expected -> what usually causes it
 FACTORS = {

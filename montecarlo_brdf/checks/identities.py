@@ -10,11 +10,11 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.checks.claim import AGREEMENT_TOLERANCE, MeanClaim, Measurement, Reference
 from montecarlo_brdf.integration import integrands
 from montecarlo_brdf.integration.evaluate import evaluate
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.subject import Subject
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, MeanClaim, Measurement, Reference
 from montecarlo_brdf.vectors import Vec, from_degrees
 
 NAME = "identities"

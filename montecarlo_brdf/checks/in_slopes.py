@@ -15,7 +15,6 @@ import numpy as np
 
 from montecarlo_brdf.checks import fitness
 from montecarlo_brdf.checks.case import pointwise
-from montecarlo_brdf.checks.claim import Measurement
 from montecarlo_brdf.integration.evaluate import evaluate
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.slopes import (
@@ -25,6 +24,7 @@ from montecarlo_brdf.integration.slopes import (
     radiance_slopes,
 )
 from montecarlo_brdf.integration.subject import Subject
+from montecarlo_brdf.judge.claim import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec, mirrored
 

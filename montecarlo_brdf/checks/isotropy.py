@@ -13,7 +13,7 @@ import numpy as np
 
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, Skip, worst_of
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference, Skip, worst_of
 
 NAME = "isotropy"
 QUESTION = "does turning both directions change nothing?"

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from montecarlo_brdf.checks import equality, furnace, interiors
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import (
+from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
     Claim,
     Exact,

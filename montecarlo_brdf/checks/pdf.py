@@ -19,7 +19,9 @@ import numpy as np
 
 from montecarlo_brdf.checks import drawn, in_slopes, interiors
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import (
+from montecarlo_brdf.integration.evaluate import estimates
+from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.judge.claim import (
     Claim,
     ExactClaim,
     MeanClaim,
@@ -27,8 +29,6 @@ from montecarlo_brdf.checks.claim import (
     Reference,
     Skip,
 )
-from montecarlo_brdf.integration.evaluate import estimates
-from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.statistics import Estimate, hidden_error
 
 NAME = "pdf"

@@ -18,8 +18,8 @@ import numpy as np
 
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
 from montecarlo_brdf.integration import scattered
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference
 
 NAME = "positivity"
 QUESTION = "finite and >= 0 everywhere?"

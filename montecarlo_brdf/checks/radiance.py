@@ -16,14 +16,6 @@ import numpy as np
 
 from montecarlo_brdf.checks import fitness, in_slopes, interiors, truth
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import (
-    AGREEMENT_TOLERANCE,
-    Claim,
-    MeanClaim,
-    Measurement,
-    Reference,
-    Skip,
-)
 from montecarlo_brdf.checks.lobe_coordinates import integrate
 from montecarlo_brdf.integration import integrands
 from montecarlo_brdf.integration.evaluate import evaluate
@@ -31,6 +23,14 @@ from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.probe import returns_weight
 from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
 from montecarlo_brdf.integration.subject import subject_of
+from montecarlo_brdf.judge.claim import (
+    AGREEMENT_TOLERANCE,
+    Claim,
+    MeanClaim,
+    Measurement,
+    Reference,
+    Skip,
+)
 
 NAME = "radiance"
 QUESTION = "does it hold under light that is not constant?"

@@ -15,8 +15,8 @@ import numpy as np
 
 from montecarlo_brdf.checks import directions, interiors
 from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference, worst_of
 from montecarlo_brdf.integration import scattered
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference, worst_of
 
 NAME = "reciprocity"
 QUESTION = "f(wo, wi) = f(wi, wo)?"

@@ -18,9 +18,9 @@ import numpy as np
 from montecarlo_brdf.checks import drawn, interiors
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.checks.cells import COARSE, FINE, FINEST, UNSURE, Cells
-from montecarlo_brdf.checks.claim import Claim, Fit, FitClaim, Skip
 from montecarlo_brdf.integration.counting import COLUMNS, ROWS
 from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.judge.claim import Claim, Fit, FitClaim, Skip
 from montecarlo_brdf.sampling.streams import stream
 
 NAME = "sampling"

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from montecarlo_brdf.checks import remembered
-from montecarlo_brdf.checks.claim import AGREEMENT_TOLERANCE, Measurement, Reference
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Measurement, Reference
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.vectors import Vec, from_degrees

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.cli._values import models_of, number, numbers, parameter_sets
+from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.report.findings import Report
 from montecarlo_brdf.report.sentences import called
 from montecarlo_brdf.verify.common import shown_parameters
 from montecarlo_brdf.verify.reproduction import RUN_SAMPLES

@@ -13,8 +13,8 @@ from montecarlo_brdf.cli import _options, _project
 from montecarlo_brdf.cli._jobs import Job, from_options
 from montecarlo_brdf.cli._progress import progress
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge.finding import Finding, Report, Result, versions
 from montecarlo_brdf.report import baseline
-from montecarlo_brdf.report.findings import Finding, Report, Result, versions
 from montecarlo_brdf.report.read import read_report
 from montecarlo_brdf.verify.common import Deadline
 

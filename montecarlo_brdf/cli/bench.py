@@ -43,8 +43,8 @@ def command(**options: Any) -> int:
     from montecarlo_brdf.bench import measure, throughput
     from montecarlo_brdf.bench.workloads import WORKLOADS
     from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.judge.finding import versions
     from montecarlo_brdf.report.bench_markdown import markdown
-    from montecarlo_brdf.report.findings import versions
     from montecarlo_brdf.report.plots import save
     from montecarlo_brdf.report.write import check_writable, write_text
 

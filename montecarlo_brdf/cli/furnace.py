@@ -10,7 +10,7 @@ import click
 from montecarlo_brdf.cli import _options
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.report.findings import Report
+    from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.cli._values import Number
 
 EPILOG = """\b
@@ -86,7 +86,7 @@ def gather(options: dict[str, Any], sums: Any = None) -> Report:
     """One report over all models asked for."""
     from montecarlo_brdf.cli._progress import progress
     from montecarlo_brdf.cli._values import models_of
-    from montecarlo_brdf.report.findings import Report
+    from montecarlo_brdf.judge.finding import Report
 
     specs = models_of(options["spec"])
     seed = _options.seed_of(options["seed"])

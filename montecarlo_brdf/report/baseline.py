@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.report.findings import EXIT_CODES, SEVERITY
+from montecarlo_brdf.judge.finding import EXIT_CODES, SEVERITY
 
 #: kinds of change, in the order in which they are told; the first two decide the exit code
 KINDS = ("new failure", "newly undecided", "fixed", "changed", "new", "gone")

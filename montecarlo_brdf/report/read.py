@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.report.findings import SCHEMA
+from montecarlo_brdf.judge.finding import SCHEMA
 
 
 def read_report(path: Path) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.text import COLOURS, PLAIN_WIDTH
 from montecarlo_brdf.stability.climb import Found
 from montecarlo_brdf.stability.sampling import LENGTH_ROUNDINGS

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from montecarlo_brdf.report.findings import SEVERITY, Finding, Report, Result, worst
+from montecarlo_brdf.judge.finding import SEVERITY, Finding, Report, Result, worst
 from montecarlo_brdf.report.sentences import SYMBOLS, bound, case, coordinate, place, tally
 from montecarlo_brdf.statistics import with_error
 

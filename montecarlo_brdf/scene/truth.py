@@ -12,8 +12,8 @@ import math
 from typing import Any
 
 from montecarlo_brdf.checks import remembered
-from montecarlo_brdf.checks.claim import Reference
 from montecarlo_brdf.integration.pointwise import Pointwise
+from montecarlo_brdf.judge.claim import Reference
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.references import _irradiance, _lit
 from montecarlo_brdf.scene import skies

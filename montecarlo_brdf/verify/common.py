@@ -6,14 +6,14 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from montecarlo_brdf.checks.claim import Claim
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.integration.arguments import check_samples
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.samplers import SAMPLERS, samplers_of
+from montecarlo_brdf.judge.claim import Claim
+from montecarlo_brdf.judge.decide import decide
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.report.findings import Finding, Report, Result
-from montecarlo_brdf.report.judge import decide
 from montecarlo_brdf.sampling.points import SETS
 
 SAMPLES = 1 << 22

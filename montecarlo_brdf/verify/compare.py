@@ -7,13 +7,13 @@ from typing import Any
 
 from montecarlo_brdf.checks import equality
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import AGREEMENT_TOLERANCE, Claim, Exact, ExactClaim, Reference
 from montecarlo_brdf.checks.truth import quadrature
 from montecarlo_brdf.integration.arguments import check_theta
 from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, Exact, ExactClaim, Reference
+from montecarlo_brdf.judge.decide import decide
+from montecarlo_brdf.judge.finding import Report, Result
 from montecarlo_brdf.model import Model, channels
-from montecarlo_brdf.report.findings import Report, Result
-from montecarlo_brdf.report.judge import decide
 from montecarlo_brdf.report.sentences import called
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.common import (

@@ -9,15 +9,15 @@ from typing import Any
 from montecarlo_brdf.checks import convergence as check
 from montecarlo_brdf.checks import truth
 from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.claim import Reference
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.integration import probe
 from montecarlo_brdf.integration.arguments import check_theta
 from montecarlo_brdf.integration.estimators import directional_albedo
 from montecarlo_brdf.integration.plan import Plan
 from montecarlo_brdf.integration.samplers import charts_of, samplers_of
+from montecarlo_brdf.judge.claim import Reference
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.report.findings import Finding, Report, Result
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.verify.common import (
     Progress,

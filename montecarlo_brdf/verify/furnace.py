@@ -9,8 +9,8 @@ from montecarlo_brdf.checks import furnace as furnace_check
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.integration import adaptive
 from montecarlo_brdf.integration.arguments import check_theta
+from montecarlo_brdf.judge.finding import Report, Result
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.report.findings import Report, Result
 from montecarlo_brdf.verify.common import (
     SAMPLES,
     Progress,

@@ -9,11 +9,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from montecarlo_brdf.checks.claim import Claim, Exact, ExactClaim, Reference
 from montecarlo_brdf.integration import probe
 from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.report.findings import Finding, Report, Result
-from montecarlo_brdf.report.judge import decide
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference
+from montecarlo_brdf.judge.decide import decide
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.sentences import place
 from montecarlo_brdf.scene import claims as scene_claims
 from montecarlo_brdf.scene.plan import ScenePlan

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report import stress as report_stress
-from montecarlo_brdf.report.findings import Report
 from montecarlo_brdf.stability import designed
 from montecarlo_brdf.stability.arithmetic import ladder, precision
 from montecarlo_brdf.stability.stress import Outcome, outcome

@@ -10,8 +10,8 @@ from montecarlo_brdf import checks
 from montecarlo_brdf.checks.case import Case
 from montecarlo_brdf.errors import TooSlow
 from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.report.findings import Finding, Result
-from montecarlo_brdf.report.judge import decide
+from montecarlo_brdf.judge.decide import decide
+from montecarlo_brdf.judge.finding import Finding, Result
 from montecarlo_brdf.verify.common import Deadline, Progress, shown_parameters
 from montecarlo_brdf.verify.reproduction import reproduction
 from montecarlo_brdf.verify.subject import probed, source

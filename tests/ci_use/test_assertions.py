@@ -12,7 +12,7 @@ import pytest
 
 from montecarlo_brdf import load
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.testing import (
     as_model,
     assert_checks,

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report import baseline
-from montecarlo_brdf.report.findings import Finding, Report, Result
 
 
 def report(*verdicts: str, theta: float = 0.0, command: str = "run") -> dict[str, Any]:

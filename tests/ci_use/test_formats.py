@@ -15,8 +15,8 @@ import pytest
 from conftest import Outcome
 from junit_rules import RULES, faults
 
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report import formats
-from montecarlo_brdf.report.findings import Finding, Report, Result
 
 PLACE = {"theta_o_deg": 45.0}
 SOURCE = {"file": "my,brdf.py", "line": 7}

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.report.findings import Finding
+from montecarlo_brdf.judge.finding import Finding
 from montecarlo_brdf.testing import as_model
 from montecarlo_brdf.verify.run import run
 

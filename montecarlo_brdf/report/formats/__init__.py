@@ -10,7 +10,7 @@ import importlib
 import pkgutil
 from types import ModuleType
 
-from montecarlo_brdf.report.findings import Report
+from montecarlo_brdf.judge.finding import Report
 
 
 def names() -> list[str]:

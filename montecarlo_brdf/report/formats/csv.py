@@ -6,7 +6,7 @@ import io
 import math
 from typing import Any
 
-from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.sentences import shown
 
 SUFFIX = ".csv"

@@ -4,7 +4,7 @@ The same run writes the Markdown report into $GITHUB_STEP_SUMMARY where that is 
 """
 from __future__ import annotations
 
-from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.sentences import BAD, case, explanation, statement, tally
 
 SUFFIX = ""  # for a terminal, not for a file

@@ -1,7 +1,7 @@
 """JSON: the whole report, with a versioned schema."""
 from __future__ import annotations
 
-from montecarlo_brdf.report.findings import Report
+from montecarlo_brdf.judge.finding import Report
 
 SUFFIX = ".json"
 

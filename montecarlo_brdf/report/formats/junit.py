@@ -11,7 +11,7 @@ import re
 from collections import Counter
 from xml.etree import ElementTree
 
-from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.sentences import case, explanation, origin, place, statement
 from montecarlo_brdf.report.text import grouped
 

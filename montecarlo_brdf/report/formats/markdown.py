@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import html
 
-from montecarlo_brdf.report.findings import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.sentences import BAD, bound, case, explanation, place, statement, tally
 from montecarlo_brdf.report.text import grouped, loud, most_telling
 from montecarlo_brdf.statistics import with_error

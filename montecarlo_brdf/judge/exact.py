@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import math
 
-from montecarlo_brdf.checks.claim import Exact, ExactClaim
-from montecarlo_brdf.report.findings import Finding
-from montecarlo_brdf.report.looks import beyond
+from montecarlo_brdf.judge.claim import Exact, ExactClaim
+from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.looks import beyond
 
 
 def exact_finding(claim: ExactClaim, known: str | None) -> Finding:

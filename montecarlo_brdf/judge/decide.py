@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from montecarlo_brdf.checks.claim import Claim, ExactClaim, FitClaim, Skip
 from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.report.exact import exact_finding
-from montecarlo_brdf.report.findings import Finding
-from montecarlo_brdf.report.fit import fit_finding
-from montecarlo_brdf.report.mean import mean_finding
+from montecarlo_brdf.judge.claim import Claim, ExactClaim, FitClaim, Skip
+from montecarlo_brdf.judge.exact import exact_finding
+from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.fit import fit_finding
+from montecarlo_brdf.judge.mean import mean_finding
 
 LEVEL = 1e-9
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from montecarlo_brdf.checks.claim import MeanClaim
 from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.report.findings import Finding
-from montecarlo_brdf.report.looks import FRESH, GROWTH, looks
-from montecarlo_brdf.report.opinions import (
+from montecarlo_brdf.judge.claim import MeanClaim
+from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.looks import FRESH, GROWTH, looks
+from montecarlo_brdf.judge.opinions import (
     Opinion,
     changed,
     judged,

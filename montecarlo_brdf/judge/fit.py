@@ -3,10 +3,10 @@ from __future__ import annotations
 
 import math
 
-from montecarlo_brdf.checks.claim import FitClaim
 from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.report.findings import Finding
-from montecarlo_brdf.report.looks import FRESH, looks
+from montecarlo_brdf.judge.claim import FitClaim
+from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.looks import FRESH, looks
 
 
 def fit_finding(claim: FitClaim, plan: Plan, known: str | None, level: float) -> Finding:
