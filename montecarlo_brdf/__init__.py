@@ -11,7 +11,7 @@ Conventions (one place for all of them):
     angles        a name says _deg or it is in radians
     A(wo)         directional albedo, int f cos(theta_i) dwi; R(wi) = int f cos(theta_o) dwo
 
-Reading order: vectors, sampling, model, integration, checks, report, cli.
+Reading order: vectors, compile, sampling, model, estimate, cases, judge, checks, report, verify, cli.
 """
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ _HOMES = {
     "UserError": "errors",
     "ModelError": "errors",
     "Estimate": "statistics",
-    "directional_albedo": "integration.estimators",
-    "reverse_albedo": "integration.estimators",
-    "bihemispherical_albedo": "integration.estimators",
-    "hemisphere_integral": "integration.estimators",
+    "directional_albedo": "estimate.estimators",
+    "reverse_albedo": "estimate.estimators",
+    "bihemispherical_albedo": "estimate.estimators",
+    "hemisphere_integral": "estimate.estimators",
     "furnace": "verify.furnace",
     "identities": "verify.identities",
     "read_scene": "scene.read",

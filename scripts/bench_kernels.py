@@ -23,8 +23,10 @@ import numpy as np
 from environment import describe
 
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.integration import build, compiler, integrands, kernel, native, parameters
-from montecarlo_brdf.integration.recipe import Recipe
+from montecarlo_brdf.compile import compiler, kernel, native
+from montecarlo_brdf.compile.layout import Layout, pack, unpacker
+from montecarlo_brdf.estimate import integrands, moments
+from montecarlo_brdf.estimate.recipe import Recipe
 from montecarlo_brdf.sampling import points
 from montecarlo_brdf.sampling.keys import NONE, replicate_key
 
@@ -93,26 +95,26 @@ def running_sum(ints: Any, reals: Any, out: Any) -> None:
     out[2] = squares - total * total / ints[4]
 
 
-def layout_of(channels: int) -> tuple[parameters.Layout, list[float]]:
-    return parameters.pack([Params(a=0.3 + 0.01 * k) for k in range(channels)], kernel.QUERY)
+def layout_of(channels: int) -> tuple[Layout, list[float]]:
+    return pack([Params(a=0.3 + 0.01 * k) for k in range(channels)], moments.QUERY)
 
 
 def ours(point_set: str, channels: int = 1) -> Timed:
     """The real kernel."""
     layout, numbers = layout_of(channels)
     recipe = Recipe(point_set, (integrands.albedo_cosine,), {"F": f}, layout)
-    return call(build.kernel_of(recipe), numbers, channels)
+    return call(kernel.kernel_of(recipe), numbers, channels)
 
 
 def simplest() -> Timed:
     """`running_sum`, compiled as kernels are."""
     layout, numbers = layout_of(1)
-    special = build.specialiser(compiler.part)
+    special = kernel.specialiser(compiler.part)
     bound = {
         "INTEGRAND": special.bind(integrands.albedo_cosine, {"F": f}),
-        "PARAMETERS": parameters.unpacker(layout),
+        "PARAMETERS": unpacker(layout),
     }
-    image = compiler.compile_function(special.clone(running_sum, bound))  # type: ignore[arg-type]
+    image = numba.compile_function(special.clone(running_sum, bound))  # type: ignore[arg-type]
     return call(native.load(image), numbers, 1)
 
 
@@ -120,7 +122,7 @@ def call(entry: native.NativeKernel, numbers: list[float], channels: int) -> Tim
     """A call without arguments, so that nothing but the kernel is timed."""
     ints = (ctypes.c_int64 * 10)(1, 0, 1, 0, COUNT, *NONE)
     reals = (ctypes.c_double * (4 + len(numbers)))(0.6, 0.0, 0.8, 0.0, *numbers)
-    out = (ctypes.c_double * (kernel.STATE * channels))()
+    out = (ctypes.c_double * (moments.STATE * channels))()
 
     def timed() -> None:
         ctypes.memset(out, 0, ctypes.sizeof(out))

@@ -19,8 +19,8 @@ from typing import Any
 from environment import describe
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.integration import methods, work
-from montecarlo_brdf.integration.compiled import compiled
+from montecarlo_brdf.compile.kernel import compiled
+from montecarlo_brdf.estimate import methods, work
 from montecarlo_brdf.sampling.points import SHAPES
 from montecarlo_brdf.vectors import from_degrees
 

@@ -21,8 +21,10 @@ from typing import Any, NamedTuple
 from environment import describe
 
 from montecarlo_brdf import load, loading
-from montecarlo_brdf.integration import build, compiler, integrands, kernel, parameters
-from montecarlo_brdf.integration.recipe import Recipe
+from montecarlo_brdf.compile import compiler, kernel
+from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.estimate import integrands, moments
+from montecarlo_brdf.estimate.recipe import Recipe
 from montecarlo_brdf.model import channels
 
 SAMPLES = 1 << 17
@@ -43,7 +45,7 @@ def calibration(wo: Any, wi: Any, p: Any) -> float:
 
 def recipe(f: Callable[..., float], sets: list[Any]) -> tuple[Recipe, list[float]]:
     """The cosine-sampled albedo kernel of f."""
-    layout, numbers = parameters.pack(sets, kernel.QUERY)
+    layout, numbers = pack(sets, moments.QUERY)
     return Recipe("independent", (integrands.albedo_cosine,), {"F": f}, layout), numbers
 
 
@@ -57,10 +59,10 @@ def prepared(name: str, **values: Any) -> tuple[Recipe, list[float]]:
 
 def caller(made: Recipe, numbers: list[float]) -> Callable[[], float]:
     """A function that runs the kernel once and returns the seconds."""
-    entry = build.kernel_of(made)
+    entry = kernel.kernel_of(made)
     ints = (ctypes.c_int64 * 10)(12345, 0, 1, 0, SAMPLES)
-    reals = (ctypes.c_double * (kernel.QUERY + len(numbers)))(0.6, 0.0, 0.8, 0.0, *numbers)
-    out = (ctypes.c_double * (kernel.STATE * made.channels))()
+    reals = (ctypes.c_double * (moments.QUERY + len(numbers)))(0.6, 0.0, 0.8, 0.0, *numbers)
+    out = (ctypes.c_double * (moments.STATE * made.channels))()
 
     def once() -> float:
         started = time.perf_counter()
@@ -72,7 +74,7 @@ def caller(made: Recipe, numbers: list[float]) -> Callable[[], float]:
 
 def mix(made: Recipe) -> dict[str, int]:
     """Counts of instructions in the kernel's machine code."""
-    text = compiler.assembly(made.assemble(build.specialiser(compiler.part)))
+    text = compiler.assembly(made.assemble(kernel.specialiser(compiler.part)))
     return {
         "calls": len(re.findall(r"^\s+call", text, re.M)),
         "zmm": len(re.findall(r"^\s+v\w+pd.*zmm", text, re.M)),

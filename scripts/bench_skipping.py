@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import plan, radiance, skies
 from montecarlo_brdf.scene.lights import Directional
 from montecarlo_brdf.scene.plan import Share, Work

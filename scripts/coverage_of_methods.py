@@ -25,12 +25,11 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading, references
-from montecarlo_brdf.checks import fitness
-from montecarlo_brdf.checks.fitness import measured
-from montecarlo_brdf.integration import methods, work
-from montecarlo_brdf.integration.ascent import Ascent
-from montecarlo_brdf.integration.compiled import compiled
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.compile.kernel import compiled
+from montecarlo_brdf.estimate import methods, trust, work
+from montecarlo_brdf.estimate.ascent import Ascent
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.trust import measured
 from montecarlo_brdf.sampling.points import NONE, SHAPES
 from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import from_degrees
@@ -107,7 +106,7 @@ def look(model: Any, p: Any, theta: float, seeds: int) -> Iterator[dict[str, Any
         return
     truth = truth._replace(error=truth.error + FITTED.get(model.name, 0.0) * truth.value)
     case = {"model": model.name, "p": p._asdict(), "theta_o": theta}
-    sight = fitness.look(variant, p, wo)
+    sight = trust.look(variant, p, wo)
     for method in methods.methods(variant):
         setting = methods.prepare(variant, p, type(p), method)
         demanded = need(setting, wo)

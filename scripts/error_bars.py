@@ -22,11 +22,12 @@ from environment import describe
 from scipy import stats
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.checks import fitness, truth
-from montecarlo_brdf.integration.evaluate import estimates
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import integrand, integrand_name, query
-from montecarlo_brdf.integration.subject import subject_of
+from montecarlo_brdf.checks import _truth
+from montecarlo_brdf.estimate import trust
+from montecarlo_brdf.estimate.evaluate import estimates
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.samplers import integrand, integrand_name, query
+from montecarlo_brdf.estimate.subject import subject_of
 from montecarlo_brdf.judge.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
 from montecarlo_brdf.vectors import from_degrees
 
@@ -74,7 +75,7 @@ def asked(name: str, parameters: dict[str, float], theta: float, sampler: str) -
     """The albedo of a case by one sampler."""
     model = mb.load(name)
     one = model.parameters(**parameters)
-    known = truth.albedo(model, one, theta)
+    known = _truth.albedo(model, one, theta)
     assert known
     function = integrand(integrand_name(model, "albedo", sampler))
     wo = query(model, one, from_degrees(theta))
@@ -147,11 +148,11 @@ def unfit(a: Asked, points: str) -> str | None:
     """What the judge says of the estimator at its first look."""
     wo = from_degrees(a.theta)
     names = [integrand_name(a.model, "albedo", a.sampler)]
-    both = a.sampler in fitness.SCALE and a.model.sample and a.model.pdf
+    both = a.sampler in trust.SCALE and a.model.sample and a.model.pdf
     names += [f"second_{a.sampler}"] if both else []
     row = estimates(a.model, a.one, wo, names, Plan(points, 1 << 14), ("coverage",))[0]
-    sight = fitness.look(a.model, a.one, wo)
-    return fitness.reason_unfit(a.sampler, row[0], sight, row[1] if both else None)
+    sight = trust.look(a.model, a.one, wo)
+    return trust.reason_unfit(a.sampler, row[0], sight, row[1] if both else None)
 
 
 def recorded() -> dict[str, Any]:

@@ -21,8 +21,8 @@ from scipy import stats
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.integration import work
-from montecarlo_brdf.report.write import write_text
+from montecarlo_brdf.estimate import work
+from montecarlo_brdf.files import write_text
 from montecarlo_brdf.sampling import points
 from montecarlo_brdf.statistics import Moments
 

@@ -32,15 +32,15 @@ from scipy import stats
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading
-from montecarlo_brdf.checks import fitness, radiance, sampling, truth
-from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.cells import Cells
-from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
-from montecarlo_brdf.integration import integrands
-from montecarlo_brdf.integration.evaluate import evaluate
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import integrand_name, query, samplers_of
-from montecarlo_brdf.integration.subject import subject_of
+from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.checks import _truth, radiance, sampling
+from montecarlo_brdf.checks._cells import Cells
+from montecarlo_brdf.estimate import integrands, trust
+from montecarlo_brdf.estimate.evaluate import evaluate
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.quadrature import Coordinates, integrate
+from montecarlo_brdf.estimate.samplers import integrand_name, query, samplers_of
+from montecarlo_brdf.estimate.subject import subject_of
 from montecarlo_brdf.judge.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
 from montecarlo_brdf.vectors import from_degrees
 
@@ -76,11 +76,11 @@ def sets(model: Any) -> list[Any]:
 def claims(model: Any, one: Any, theta: float) -> Iterator[Claim]:
     """Every kind of mean that `run` judges."""
     wo = from_degrees(theta)
-    known = truth.albedo(model, one, theta)
+    known = _truth.albedo(model, one, theta)
     if known:
         yield _claim(model, one, wo, "albedo", known.value, known.error)
     lit = functools.partial(_lit, pointwise(model, one).f, np.array(wo))
-    found = integrate(lit, truth.coordinates(model, one, np.array(wo)), 1e-11)
+    found = integrate(lit, _truth.coordinates(model, one, np.array(wo)), 1e-11)
     yield _claim(model, one, wo, "radiance", found.value, found.error, SKY=radiance.either_sky)
     if model.sample and model.pdf:
         yield _rejected(model, one, wo)
@@ -95,16 +95,16 @@ def _claim(
 ) -> Claim:
     chosen = list(samplers_of(model))
     functions = [getattr(integrands, integrand_name(model, kind, s)) for s in chosen]
-    blind = [s for s in chosen if s in fitness.SCALE]
+    blind = [s for s in chosen if s in trust.SCALE]
     seconds = blind if kind == "albedo" and model.sample and model.pdf else []
     functions += [getattr(integrands, f"second_{s}") for s in seconds]
     fixed = (*wo, radiance.WHICH["tilted"]) if sky else query(model, one, wo)
     q = replicates.Question(subject_of(model, one, **sky), fixed, functions, ("false alarms", kind))
     row = evaluate(q.subject, q.fixed, functions, Plan(samples=SAMPLES), q.label)[0]
-    sight = fitness.look(model, one, wo)
+    sight = trust.look(model, one, wo)
     moments = dict(zip(seconds, row[len(chosen) :], strict=True))
     fit = [
-        fitness.reason_unfit(s, e, sight, moments.get(s)) is None
+        trust.reason_unfit(s, e, sight, moments.get(s)) is None
         for s, e in zip(chosen, row, strict=False)
     ]
     return Claim(kind, q, chosen, expected, error, fit)
@@ -113,7 +113,7 @@ def _claim(
 def _rejected(model: Any, one: Any, wo: Any) -> Claim:
     """The rejected fraction of the sampler and int pdf against 1."""
     direction = np.array(wo)
-    coordinates = Coordinates(direction, truth.lobe_scale(model, one, direction))
+    coordinates = Coordinates(direction, _truth.lobe_scale(model, one, direction))
     found = integrate(lambda wi: pointwise(model, one).pdf(direction, wi), coordinates, 1e-11)
     label = ("false alarms", "rejected")
     q = replicates.Question(subject_of(model, one), wo, [integrands.rejected_own], label)

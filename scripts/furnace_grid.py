@@ -20,7 +20,7 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading
-from montecarlo_brdf.integration.samplers import samplers_of
+from montecarlo_brdf.estimate.samplers import samplers_of
 
 TARGET = Path(__file__).parent / "results" / "furnace_grid.json"
 ANGLES = [0.0, 30.0, 60.0, 85.0, 89.0]

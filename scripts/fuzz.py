@@ -31,7 +31,7 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.cli import execute
-from montecarlo_brdf.report.write import write_text
+from montecarlo_brdf.files import write_text
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "robustness"))

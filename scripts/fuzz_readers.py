@@ -29,9 +29,9 @@ with atheris.instrument_imports(include=["montecarlo_brdf", "tomllib"]):
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli import _project, _values
     from montecarlo_brdf.errors import UserError
-    from montecarlo_brdf.integration.partial_sums import PartialSums
+    from montecarlo_brdf.estimate.partial_sums import PartialSums
+    from montecarlo_brdf.files import write_text
     from montecarlo_brdf.report import baseline, read
-    from montecarlo_brdf.report.write import write_text
     from montecarlo_brdf.scene import image, image_sky, make
     from montecarlo_brdf.scene import read as read_scenes
 

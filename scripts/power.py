@@ -25,9 +25,9 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks, references
-from montecarlo_brdf.checks import drawn, truth
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import _draws, _truth
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.models import ggx
 from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
@@ -75,8 +75,8 @@ def subjects() -> dict[str, tuple[Any, str, tuple[str, ...]]]:
 
 def run(model: Any, check: str, findings: tuple[str, ...], seed: int) -> str:
     """The verdict of a run: the worst of the findings, from nothing but compiled code."""
-    drawn.density_integral_of.cache_clear()
-    truth.quadrature.cache_clear()
+    _draws.density_integral_of.cache_clear()
+    _truth.quadrature.cache_clear()
     p = model.parameters()
     case = Case(model, p, [THETA], seed=seed)
     plan = Plan(samples=RUN_SAMPLES, seed=seed)

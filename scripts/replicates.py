@@ -12,14 +12,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy import stats
 
-from montecarlo_brdf.integration import kernel, parameters
-from montecarlo_brdf.integration.compiled import compiled
-from montecarlo_brdf.integration.evaluate import evaluate
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.recipe import Recipe
-from montecarlo_brdf.integration.samplers import suited_to
-from montecarlo_brdf.integration.subject import Subject
-from montecarlo_brdf.integration.work import Ladder
+from montecarlo_brdf.compile.kernel import compiled
+from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.estimate import moments
+from montecarlo_brdf.estimate.evaluate import evaluate
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.recipe import Recipe
+from montecarlo_brdf.estimate.samplers import suited_to
+from montecarlo_brdf.estimate.subject import Subject
+from montecarlo_brdf.estimate.work import Ladder
 from montecarlo_brdf.sampling.points import NONE, SHAPES
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.statistics import least_error
@@ -40,18 +41,18 @@ class Question(NamedTuple):
 def means(q: Question, points: str, count: int, seed: int = 0, each: int = EACH) -> Any:
     """Means and mean squared deviations of `count` replicates of `each` samples: (integrands, 2,
     count)."""
-    layout, numbers = parameters.pack(q.subject.sets, kernel.QUERY)
+    layout, numbers = pack(q.subject.sets, moments.QUERY)
     suited = tuple(suited_to(points, f) for f in q.integrands)
     recipe = Recipe(points, suited, q.subject.functions, layout)
     entry = compiled(q.subject.identity[0], recipe)
-    reals = (*(*q.fixed, 0.0)[: kernel.QUERY], *numbers)
+    reals = (*(*q.fixed, 0.0)[: moments.QUERY], *numbers)
     key = stream(seed, points, *q.subject.identity, *q.label, *q.fixed)
     shape = SHAPES[points](each) if points in SHAPES else NONE
     found, width = [], len(q.integrands)
     for first in range(0, count, BATCH):
         many = min(BATCH, count - first)
         states = Ladder(entry, reals, width, key, many, first).states(each, shape)
-        table = np.reshape(states, (many, width, kernel.STATE))
+        table = np.reshape(states, (many, width, moments.STATE))
         found.append(np.stack([table[:, :, 1], table[:, :, 2] / each]).transpose(2, 0, 1))
     return np.concatenate(found, axis=2)
 

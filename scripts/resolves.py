@@ -22,9 +22,10 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.judge.claim import MeanClaim, Measurement
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import MeanClaim
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.mean import OF_F_ALONE, OF_SAME_F
 from montecarlo_brdf.verify.reproduction import RUN_SAMPLES

@@ -22,8 +22,8 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks, loading
-from montecarlo_brdf.checks.case import Case, searched
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.cases.case import Case, searched
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import FitClaim, MeanClaim
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.verify.reproduction import RUN_SAMPLES

@@ -16,7 +16,7 @@ import numpy as np
 from environment import describe
 
 from montecarlo_brdf import student
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import claims, radiance
 from montecarlo_brdf.scene.read import read_scene
 from montecarlo_brdf.vectors import from_degrees

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf import loading
+from montecarlo_brdf.files import write_text
 from montecarlo_brdf.report.stress import reproduction
-from montecarlo_brdf.report.write import write_text
 from montecarlo_brdf.stability import arithmetic, designed
 from montecarlo_brdf.stability.stress import Outcome, outcome
 

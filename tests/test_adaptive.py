@@ -12,8 +12,8 @@ import pytest
 import montecarlo_brdf as mb
 from montecarlo_brdf import references
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.integration import adaptive, methods
-from montecarlo_brdf.integration.ascent import Ascent
+from montecarlo_brdf.estimate import adaptive, methods
+from montecarlo_brdf.estimate.ascent import Ascent
 from montecarlo_brdf.vectors import from_degrees
 
 CASES = [

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from conftest import Outcome
 
-from montecarlo_brdf.report import write
+from montecarlo_brdf import files
 
 USAGE, MODEL, OUTPUT = 2, 4, 5
 Command = Callable[..., Outcome]
@@ -216,7 +216,7 @@ def test_a_write_that_breaks_off_leaves_nothing(
 
     target = tmp_path / "report.json"
     target.write_text("before")
-    monkeypatch.setattr(write.os, "replace", broken)
+    monkeypatch.setattr(files.os, "replace", broken)
     outcome = cli("furnace", "--model", "lambert", "--theta-o", 0, "--export-json", target)
     refused(outcome, OUTPUT, str(target), "No space left on device")
     assert os.listdir(tmp_path) == ["report.json"] and target.read_text() == "before"

@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 from conftest import Outcome
 
-from montecarlo_brdf.integration import cache
+from montecarlo_brdf.compile import cache
 
 Write = Callable[..., Path]
 Command = Callable[..., Outcome]
@@ -93,14 +93,15 @@ def furnace(model: object, *more: object) -> list[object]:
 KEYS = """
 import sys
 from montecarlo_brdf import load
-from montecarlo_brdf.integration import integrands, parameters
-from montecarlo_brdf.integration.recipe import Recipe
+from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.estimate import integrands
+from montecarlo_brdf.estimate.recipe import Recipe
 for path in sys.argv[1:]:
     sys.modules.pop("other", None)
     sys.path_importer_cache.clear()
     model = load(path)
     sys.path.pop(0)
-    layout, _ = parameters.pack([model.parameters()], 4)
+    layout, _ = pack([model.parameters()], 4)
     functions = {"F": model.f}
     print(Recipe("sobol", (integrands.albedo_cosine,), functions, layout).key())
 """
@@ -260,7 +261,7 @@ def test_the_same_bytes_for_any_threads_cold_and_warm(tmp_path: Path, process: C
 def test_threads_are_really_used(monkeypatch: pytest.MonkeyPatch) -> None:
     """The test before this one proves nothing unless its work is spread over threads."""
     import montecarlo_brdf as mb
-    from montecarlo_brdf.integration import work
+    from montecarlo_brdf.estimate import work
 
     started: list[int] = []
 

@@ -11,11 +11,11 @@ from conftest import Outcome
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import references
-from montecarlo_brdf.checks.case import pointwise
-from montecarlo_brdf.checks.fitness import Sight, heeding_ends, heeding_rejected, look, reason_unfit
-from montecarlo_brdf.integration import methods, work
-from montecarlo_brdf.integration.compiled import compiled
-from montecarlo_brdf.integration.ends import ACROSS, Ends, at_ends
+from montecarlo_brdf.cases.case import pointwise
+from montecarlo_brdf.compile.kernel import compiled
+from montecarlo_brdf.estimate import methods, work
+from montecarlo_brdf.estimate.ends import ACROSS, Ends, at_ends
+from montecarlo_brdf.estimate.trust import Sight, heeding_ends, heeding_rejected, look, reason_unfit
 from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import from_degrees
 

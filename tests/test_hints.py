@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from montecarlo_brdf.checks import hints
+from montecarlo_brdf.checks import _hints
+from montecarlo_brdf.judge.hint import hint
 
 RNG = np.random.default_rng(1)
 
@@ -31,24 +32,24 @@ def density(wo: Any, wi: Any) -> Any:
     ("moved", "words"),
     [
         (lambda a, b: density(b, a), "wo and wi swapped"),
-        (lambda a, b: density(a, b * hints.MIRRORED), "mirror direction"),
+        (lambda a, b: density(a, b * _hints.MIRRORED), "mirror direction"),
     ],
 )
 def test_confused_directions(moved: Any, words: str) -> None:
     truth = density(WO, WI)
-    assert words in str(hints.moved_named(lambda a, b: moved(a, b) / truth, WO, WI))
+    assert words in str(_hints.moved_named(lambda a, b: moved(a, b) / truth, WO, WI))
 
 
 def test_no_confusion_without_deviation() -> None:
     """A reciprocal f is also right with wo and wi swapped: that is no cause."""
-    assert hints.moved_named(lambda a, b: np.ones(len(a)), WO, WI) is None
-    assert hints.moved_named(lambda a, b: density(a, b) ** 2, WO, WI) is None
+    assert _hints.moved_named(lambda a, b: np.ones(len(a)), WO, WI) is None
+    assert _hints.moved_named(lambda a, b: density(a, b) ** 2, WO, WI) is None
 
 
 def test_whose_fault_a_weight_is() -> None:
     claim: Any = None  # not looked at
-    assert "pdf of 0" in str(hints.hint(claim, np.inf, only_own=True))
-    assert str(hints.hint(claim, np.inf)).startswith("f is not finite")
+    assert "pdf of 0" in str(hint(claim, np.inf, only_own=True))
+    assert str(hint(claim, np.inf)).startswith("f is not finite")
 
 
 def test_dependence() -> None:
@@ -56,24 +57,24 @@ def test_dependence() -> None:
         h = a + b
         return h[:, 2] / np.sqrt(np.sum(h * h, axis=1))
 
-    one = hints.dependence_named(lambda a, b: 1.0 + half(a, b) ** 8, WO, WI)
-    two = hints.dependence_named(lambda a, b: 1.0 + a[:, 2] * b[:, 2] ** 2, WO, WI)
-    both = hints.dependence_named(lambda a, b: 1.0 + half(a, b) * b[:, 2], WO, WI)
+    one = _hints.dependence_named(lambda a, b: 1.0 + half(a, b) ** 8, WO, WI)
+    two = _hints.dependence_named(lambda a, b: 1.0 + a[:, 2] * b[:, 2] ** 2, WO, WI)
+    both = _hints.dependence_named(lambda a, b: 1.0 + half(a, b) * b[:, 2], WO, WI)
     assert "distribution" in str(one) and "masking" in str(two) and both is None
 
 
 def test_widths_and_azimuths() -> None:
     ratio = 0.9 + 0.2 * WI[:, 2]
-    assert "narrower" in hints.wider_named(ratio, WI[:, 2])
-    assert "wider" in hints.wider_named(1.0 / ratio, WI[:, 2])
-    assert hints.wider_named(np.ones(len(WI)), WI[:, 2]) == ""
+    assert "narrower" in _hints.wider_named(ratio, WI[:, 2])
+    assert "wider" in _hints.wider_named(1.0 / ratio, WI[:, 2])
+    assert _hints.wider_named(np.ones(len(WI)), WI[:, 2]) == ""
     phi = np.arctan2(WI[:, 1], WI[:, 0])
-    assert "azimuth" in hints.azimuth_named(1.0 + 0.02 * np.sin(phi), WI)
-    assert hints.azimuth_named(ratio, WI) == ""
+    assert "azimuth" in _hints.azimuth_named(1.0 + 0.02 * np.sin(phi), WI)
+    assert _hints.azimuth_named(ratio, WI) == ""
 
 
 def test_what_is_right_nearly_everywhere_has_no_factor() -> None:
     ratio = np.ones(2000)
     ratio[:10] = 0.5
-    assert hints.shape_named(ratio, WO, WI) is None
-    assert "1.001 everywhere" in str(hints.shape_named(np.full(2000, 1.001), WO, WI))
+    assert _hints.shape_named(ratio, WO, WI) is None
+    assert "1.001 everywhere" in str(_hints.shape_named(np.full(2000, 1.001), WO, WI))

@@ -15,13 +15,15 @@ NAME = PACKAGE.name
 #: A part may import itself, what stands before it in its row, and errors.
 FLOW = (
     ("errors",),
-    ("bits", "jit", "special", "student", "vectors"),
-    ("sampling", "statistics"),
+    ("bits", "files", "special", "student", "vectors"),
+    ("compile", "statistics"),
+    ("sampling",),
     ("loading", "mixture", "model", "model_file", "models"),
-    ("integration",),
-    ("bench", "stability"),
-    ("checks",),
-    ("scene",),
+    ("estimate",),
+    ("cases",),
+    ("judge",),
+    ("bench", "checks"),
+    ("scene", "stability"),
     ("report",),
     ("verify",),
     ("cli",),
@@ -39,8 +41,8 @@ FOR_MODELS = {"bits", "models", "sampling.warps", "special", "vectors"}
 KEPT_IN = {
     "click": ("cli/",),
     "matplotlib": ("report/",),
-    "numba": ("bits.py", "jit.py", "integration/", "bench/peers.py"),  # peers are what others do
-    "llvmlite": ("bits.py", "jit.py", "integration/"),
+    "numba": ("compile/", "bench/peers.py"),  # peers are what others do
+    "llvmlite": ("compile/",),
     "rich": ("report/", "cli/_progress.py"),
 }
 #: Slow to import: never at the top of a file, so that --help stays instant.
@@ -135,17 +137,17 @@ def test_every_part_has_its_place() -> None:
 @pytest.mark.parametrize(
     ("path", "source"),
     [
-        ("models/wrong.py", "from montecarlo_brdf.integration import kernel"),
+        ("models/wrong.py", "from montecarlo_brdf.compile import kernel"),
         ("models/wrong.py", "from montecarlo_brdf.sampling import points"),
         ("models/wrong.py", "from montecarlo_brdf.errors import UserError"),
         ("references/wrong.py", "from montecarlo_brdf.vectors import dot"),
         ("references/wrong.py", "import montecarlo_brdf.models.ggx"),
         ("checks/wrong.py", "from montecarlo_brdf import report"),
-        ("integration/wrong.py", "from montecarlo_brdf.references import albedo"),
+        ("estimate/wrong.py", "from montecarlo_brdf.references import albedo"),
         ("vectors.py", "def f():\n    from montecarlo_brdf.sampling import warps"),
         ("report/wrong.py", "import click"),
         ("verify/wrong.py", "def f():\n    import matplotlib.pyplot"),
-        ("integration/wrong.py", "import numba"),
+        ("compile/wrong.py", "import numba"),
         ("checks/wrong.py", "def f():\n    import numba"),
         ("references/wrong.py", "import scipy.special"),
     ],

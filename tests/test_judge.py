@@ -9,9 +9,10 @@ import pytest
 from scipy import stats
 
 from montecarlo_brdf import student
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge import mean as judging
-from montecarlo_brdf.judge.claim import MeanClaim, Measurement, Reference
+from montecarlo_brdf.judge.claim import MeanClaim, Reference
 from montecarlo_brdf.judge.decide import LEVEL, decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result, worst
 from montecarlo_brdf.judge.looks import FIRST_LOOK, GROWTH, looks

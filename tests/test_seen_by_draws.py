@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.checks import drawn, energy, interiors
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.lobe_coordinates import Coordinates, integrate
+from montecarlo_brdf.cases import parameters
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import _draws, energy
+from montecarlo_brdf.estimate.quadrature import Coordinates, integrate
 from montecarlo_brdf.statistics import Moments, estimate
 from montecarlo_brdf.vectors import from_degrees
 
@@ -49,19 +50,19 @@ def test_of_two_equal_needles_the_one_that_nodes_do_not_see_is_the_error() -> No
 
 @pytest.mark.parametrize("name", ["honest/rare_lobe_by_u0", "honest/azimuth_in_slices"])
 def test_rare_lobes_and_seams_are_no_fault_of_a_pdf(name: str) -> None:
-    assert drawn.jacobian(case(name), 45.0).value <= drawn.JACOBIAN_TOLERANCE
+    assert _draws.jacobian(case(name), 45.0).value <= _draws.JACOBIAN_TOLERANCE
 
 
 def test_a_sampler_that_clamps_is_wrong_at_an_end_only() -> None:
     mine = case("mutants/sampler_clamps_alpha")
-    assert drawn.jacobian(mine, 45.0).value <= drawn.JACOBIAN_TOLERANCE
-    low, *_, high = interiors.at_ends(mine)
-    assert drawn.jacobian(*low).value > 1.0
-    assert drawn.jacobian(*high).value <= drawn.JACOBIAN_TOLERANCE
+    assert _draws.jacobian(mine, 45.0).value <= _draws.JACOBIAN_TOLERANCE
+    low, *_, high = parameters.at_ends(mine)
+    assert _draws.jacobian(*low).value > 1.0
+    assert _draws.jacobian(*high).value <= _draws.JACOBIAN_TOLERANCE
 
 
 def test_all_parameters_are_also_asked_at_their_ends_together() -> None:
-    *_, lowest, highest = interiors.ends(case("mutants/brushed_in_one_corner"))
+    *_, lowest, highest = parameters.ends(case("mutants/brushed_in_one_corner"))
     assert tuple(lowest) == (0.0, 0.0) and tuple(highest) == (1.0, 1.0)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from montecarlo_brdf import special
-from montecarlo_brdf.integration import build
+from montecarlo_brdf.compile import kernel
 
 mp.mp.dps = 40
 
@@ -30,9 +30,9 @@ def run(x: Any, out: Any) -> None:
 def compiled(function: Callable[[float], float]) -> Callable[[Any, Any], None]:
     import numba
 
-    from montecarlo_brdf import jit
+    from montecarlo_brdf.compile import compiler
 
-    return numba.njit(**jit.options())(build.specialiser().clone(run, {"F": function}))
+    return numba.njit(**compiler.options())(kernel.specialiser().clone(run, {"F": function}))
 
 
 def both(function: Callable[[float], float], x: Any) -> list[Any]:

@@ -13,8 +13,8 @@ import pytest
 from conftest import Outcome
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.checks import drawn
-from montecarlo_brdf.checks.case import Case, searched
+from montecarlo_brdf.cases.case import Case, searched
+from montecarlo_brdf.checks import _draws
 from montecarlo_brdf.cli import _progress
 
 Command = Callable[..., Outcome]
@@ -71,9 +71,9 @@ def test_weights_of_a_mixture_are_not_searched(cli: Command) -> None:
 
 def test_a_rare_lobe_chosen_by_the_third_number_is_noticed() -> None:
     model = mb.load("0.0015 lambert + 0.9985 ggx")
-    assert drawn.chooses(Case(model, model.parameters(), (45.0,)), 45.0)
+    assert _draws.chooses(Case(model, model.parameters(), (45.0,)), 45.0)
     plain = mb.load("ggx")
-    assert not drawn.chooses(Case(plain, plain.parameters(), (45.0,)), 45.0)
+    assert not _draws.chooses(Case(plain, plain.parameters(), (45.0,)), 45.0)
 
 
 def test_nan_does_not_converge(cli: Command, tmp_path: Path) -> None:

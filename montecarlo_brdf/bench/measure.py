@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.bench import peers
 from montecarlo_brdf.bench.workloads import WORKLOADS, Workload
-from montecarlo_brdf.integration.estimators import directional_albedo
+from montecarlo_brdf.estimate.estimators import directional_albedo
 
 OURS = "brdf-check"
 TARGETS = (1e-3, 1e-6, 1e-9)

@@ -6,12 +6,13 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from montecarlo_brdf import jit
 from montecarlo_brdf.bench.measure import quartiles
 from montecarlo_brdf.bench.workloads import integrand
-from montecarlo_brdf.integration import build, integrands, kernel, parameters, work
-from montecarlo_brdf.integration.estimators import directional_albedo
-from montecarlo_brdf.integration.recipe import Recipe
+from montecarlo_brdf.compile import compiler, kernel
+from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.estimate import integrands, moments, work
+from montecarlo_brdf.estimate.estimators import directional_albedo
+from montecarlo_brdf.estimate.recipe import Recipe
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.sampling.points import NONE, SHAPES
 from montecarlo_brdf.vectors import from_degrees
@@ -35,9 +36,9 @@ def cosine_job(name: str, samples: int, points: str = "independent") -> Callable
     """A call that takes `samples` cosine samples of a model with its default parameters."""
     model = load(name)
     p = model.parameters()
-    layout, numbers = parameters.pack([model.prepared(p)], kernel.QUERY)
+    layout, numbers = pack([model.prepared(p)], moments.QUERY)
     recipe = Recipe(points, (integrands.albedo_cosine,), {"F": model.f}, layout)
-    entry = build.kernel_of(recipe)
+    entry = kernel.kernel_of(recipe)
     reals = (*from_degrees(60.0), 0.0, *numbers)
     shape = SHAPES[points](samples) if points in SHAPES else NONE
     return lambda: work.Ladder(entry, reals, 1, 1, 1).states(samples, shape)
@@ -45,7 +46,7 @@ def cosine_job(name: str, samples: int, points: str = "independent") -> Callable
 
 def rates(rounds: int) -> list[dict[str, Any]]:
     """ns per sample per model, and as a fraction of the calibration kernel's speed."""
-    limit = jit.compiled(calibration)
+    limit = compiler.compiled(calibration)
     naive = integrand("W3").loop
     jobs: dict[str, Callable[[], Any]] = {"calibration: 4 sqrt + 1 div": lambda: limit(N)}
     jobs |= {name: cosine_job(name, N) for name in MODELS}

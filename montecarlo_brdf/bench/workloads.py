@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from montecarlo_brdf import jit, references
-from montecarlo_brdf.integration import build
+from montecarlo_brdf import references
+from montecarlo_brdf.compile import compiler, kernel
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import from_degrees
@@ -73,13 +73,13 @@ def integrand(name: str) -> Integrand:
     work = next(w for w in WORKLOADS if w.name == name)
     model, wo = work.model, from_degrees(work.theta_o_deg)
     p = model.prepared(work.p)
-    f = build.specialiser().bind(model.f, {})
+    f = kernel.specialiser().bind(model.f, {})
 
     def at(theta: float, phi: float) -> float:
         s, c = math.sin(theta), math.cos(theta)
         return 2.0 * f(wo, (s * math.cos(phi), s * math.sin(phi), c), p) * c * s
 
-    one = jit.compiled(at)
+    one = compiler.compiled(at)
 
     def batch(theta: Any, phi: Any) -> Any:
         out = np.empty_like(theta)
@@ -103,4 +103,5 @@ def integrand(name: str) -> Integrand:
             total += f(wo, (r * math.cos(phi), r * math.sin(phi), math.sqrt(1.0 - u1)), p)
         return total * math.pi / n
 
-    return Integrand(one, jit.compiled(batch), jit.compiled(cosine), jit.compiled(loop))
+    fast = compiler.compiled
+    return Integrand(one, fast(batch), fast(cosine), fast(loop))

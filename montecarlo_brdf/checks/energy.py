@@ -1,7 +1,7 @@
 """Energy: is ever more reflected than received?
 
 R(wi), all that leaves for light from wi, and A(wo) are searched for their worst over angles up to
-89.9 degrees and over the parameters' ranges (checks.search). The worst is estimated again on a
+89.9 degrees and over the parameters' ranges (cases.worst). The worst is estimated again on a
 fresh stream and judged against 1. It cannot see: a peak narrower than the search.
 """
 from __future__ import annotations
@@ -14,19 +14,15 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import fitness, furnace, interiors, search, truth
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration.evaluate import estimates
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
-from montecarlo_brdf.judge.claim import (
-    BOUND_TOLERANCE,
-    Claim,
-    MeanClaim,
-    Measurement,
-    Reference,
-    Skip,
-)
+from montecarlo_brdf.cases import parameters, worst
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import _truth, furnace
+from montecarlo_brdf.estimate import trust
+from montecarlo_brdf.estimate.evaluate import estimates
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import BOUND_TOLERANCE, Claim, MeanClaim, Reference, Skip
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec
 
@@ -41,7 +37,7 @@ def claims(case: Case) -> Iterator[Claim]:
     """The worst A and the worst R found are at most 1; per channel, never on the mean."""
     for quantity, symbol in QUANTITIES.items():
         for k, one in enumerate(case.sets):
-            space = search.Space(case._replace(p=one))
+            space = worst.Space(case._replace(p=one))
             channel = {"channel": k} if len(case.sets) > 1 else {}
             yield _claim(space, quantity, symbol, channel)
     yield from _unasked(case.model)
@@ -59,9 +55,9 @@ def _unasked(model: Model) -> Iterator[Claim]:
         yield Skip(f"other {name}", reason)
 
 
-def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, int]) -> Claim:
-    case, value = space.case, search.albedo(space, quantity)
-    spot = _undrawn(space, quantity, search.worst(space, value))
+def _claim(space: worst.Space, quantity: str, symbol: str, channel: dict[str, int]) -> Claim:
+    case, value = space.case, worst.albedo(space, quantity)
+    spot = _undrawn(space, quantity, worst.worst(space, value))
     p, fixed = space.parameters(spot.at), space.vector(spot.at)
     theta, phi = space.direction(spot.at)
     reverse = quantity == "reverse"
@@ -78,32 +74,32 @@ def _claim(space: search.Space, quantity: str, symbol: str, channel: dict[str, i
         property=PROPERTY,
         unit=furnace.units(case.model, p),
         cause=_cause(space, spot, value),
-        fallback=functools.partial(truth.deterministic, case.model, p, fixed, reverse=reverse),
+        fallback=functools.partial(_truth.deterministic, case.model, p, fixed, reverse=reverse),
     )
 
 
-def _undrawn(space: search.Space, quantity: str, spot: search.Spot) -> search.Spot:
+def _undrawn(space: worst.Space, quantity: str, spot: worst.Spot) -> worst.Spot:
     """A worse place by a quadrature of f, with parameters at the ends of their ranges and some
     inside: a search by the model's own sampler sees only what that draws."""
     case = space.case
-    sets = (*interiors.ends(case), *interiors.sets(case)) if case.model.sample else ()
+    sets = (*parameters.ends(case), *parameters.sets(case)) if case.model.sample else ()
     for p, theta in itertools.product(sets, UNDRAWN):
-        position = interiors.position(case, p).values()
-        at = (theta / search.LAST, *(0.0,) * space.turning, *position)
-        value, error = truth.quadrature(case.model, p, space.vector(at), quantity == "reverse")
+        position = parameters.position(case, p).values()
+        at = (theta / worst.LAST, *(0.0,) * space.turning, *position)
+        value, error = _truth.quadrature(case.model, p, space.vector(at), quantity == "reverse")
         if value - 2.0 * error > max(1.0, spot.value):
-            spot = search.Spot(at, value)
+            spot = worst.Spot(at, value)
     return spot
 
 
-def _cause(space: search.Space, spot: search.Spot, value: search.Value) -> str:
+def _cause(space: worst.Space, spot: worst.Spot, value: worst.Value) -> str:
     """What the worst place says: towards grazing, inside the ranges only, or at which angle."""
     case, theta = space.case, space.direction(spot.at)[0]
     if theta > 85.0 and spot.value > 1.5:
         return "grows towards grazing: look at masking and at cosines in denominators"
     own = np.array([(*spot.at[: 1 + space.turning], *space.own())])
     if value(own, "climb")[0] <= 1.0 + BOUND_TOLERANCE < spot.value:
-        return interiors.unlike(case, space.parameters(spot.at))
+        return parameters.unlike(case, space.parameters(spot.at))
     turned = f", azimuth {space.direction(spot.at)[1]:.0f}" if space.turning else ""
     return f"most at {theta:.1f} degrees{turned}: compare the normalisation, weights that add up"
 
@@ -118,5 +114,5 @@ def _reverse(model: Model, p: Any, wi: Vec, plan: Plan) -> list[Measurement]:
     chosen = samplers_of(model, "reverse")
     names = [integrand_name(model, "reverse", s) for s in chosen]
     row = estimates(model, p, wi, names, plan, (NAME, "reverse"))[0]
-    sight = fitness.look(model, p, wi)
-    return [fitness.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]
+    sight = trust.look(model, p, wi)
+    return [trust.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]

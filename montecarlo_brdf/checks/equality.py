@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import directions, interiors
-from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.hints import dependence_named, moved_named, shape_named
-from montecarlo_brdf.integration import scattered
+from montecarlo_brdf.cases import directions, parameters
+from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.checks._hints import dependence_named, moved_named, shape_named
+from montecarlo_brdf.estimate import scattered
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference, Skip, worst_of
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model
@@ -56,7 +56,7 @@ def _worst(case: Case, other: Model) -> Exact:
         return _relative(ours, scattered.pair_values(other, wo, wi, same))
 
     few = other.prepare is not None
-    looks: list[tuple[Any, ...]] = [(p,) for p in (*interiors.sets(case), *interiors.ends(case))]
+    looks: list[tuple[Any, ...]] = [(p,) for p in (*parameters.sets(case), *parameters.ends(case))]
     if case.free:
         looks.append(directions.worst_pair(case, case.random(NAME, "all"), apart, few))
     return worst_of(
@@ -82,7 +82,7 @@ def difference(case: Case, p: Any, other: Model, q: Any, rng: Any, *more: Any) -
         f, apart = pointwise(case.model, p).f, np.abs(ours - theirs)
         relative = directions.unexplained(relative, apart, TOLERANCE, f, wo, wi, rng)
     k = int(np.argmax(relative))
-    where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+    where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = None
     if relative[k] > TOLERANCE:
         hint = _remapped(ours, wo, wi, other, q) or _hint(ours, theirs, wo, wi, k)

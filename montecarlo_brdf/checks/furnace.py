@@ -12,12 +12,13 @@ import functools
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from montecarlo_brdf.checks import fitness, truth
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration import adaptive
-from montecarlo_brdf.integration.evaluate import estimates
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import _truth
+from montecarlo_brdf.estimate import adaptive, trust
+from montecarlo_brdf.estimate.evaluate import estimates
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
+from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
     BOUND_TOLERANCE,
@@ -25,7 +26,6 @@ from montecarlo_brdf.judge.claim import (
     Exact,
     ExactClaim,
     MeanClaim,
-    Measurement,
     Reference,
 )
 from montecarlo_brdf.model import Model, channels
@@ -52,10 +52,10 @@ def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
     for k, one in enumerate(case.sets):
         where = case.where(theta_o_deg=theta)
         where |= {"channel": k} if len(case.sets) > 1 else {}
-        expected = truth.albedo(case.model, one, theta, case.phi_o_deg)
+        expected = _truth.albedo(case.model, one, theta, case.phi_o_deg)
         scale = abs(expected.value) if expected else 1.0
         source = functools.partial(of_channel, measured, k)
-        quadrature = functools.partial(truth.deterministic, case.model, one, case.wo(theta))
+        quadrature = functools.partial(_truth.deterministic, case.model, one, case.wo(theta))
         more = _fallback(case, one, theta, expected) if case.samplers is None else None
         yield MeanClaim(
             "A",
@@ -87,10 +87,10 @@ def _fallback(
     that is the reference, which says nothing about itself, draws that follow the lobe."""
     model, wo = case.model, case.wo(theta)
     if expected is not None and not expected.kind.startswith("quadrature"):
-        return functools.partial(truth.deterministic, model, one, wo)
-    from montecarlo_brdf.checks import in_slopes
+        return functools.partial(_truth.deterministic, model, one, wo)
+    from montecarlo_brdf.checks import _slopes
 
-    return functools.partial(in_slopes.albedo, model, one, wo)
+    return functools.partial(_slopes.albedo, model, one, wo)
 
 
 def searchable(case: Case) -> bool:
@@ -102,10 +102,10 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
     """A where it is farthest from `known(cos_theta_o, p)`, of all angles and free parameters."""
     import numpy as np
 
-    from montecarlo_brdf.checks import search
+    from montecarlo_brdf.cases import worst
 
-    space = search.Space(case)
-    value = search.albedo(space, "albedo")
+    space = worst.Space(case)
+    value = worst.albedo(space, "albedo")
 
     def expected(at: Any) -> float:
         return known(space.vector(at)[2], space.parameters(at))
@@ -114,7 +114,7 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
         due = np.array([expected(one) for one in at.tolist()])
         return np.abs(value(at, stage) - due) / np.maximum(np.abs(due), SMALLEST)
 
-    at = search.worst(space, deviation).at
+    at = worst.worst(space, deviation).at
     theta, phi = space.direction(at)
     there = case._replace(p=space.parameters(at), phi_o_deg=phi, free=())
     return MeanClaim(
@@ -132,9 +132,9 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
 
 def _elsewhere(case: Case, p: Any, theta: float, due: float) -> str:
     """Where it deviates most, and how much there should be."""
-    from montecarlo_brdf.checks import interiors
+    from montecarlo_brdf.cases import parameters
 
-    place = interiors.unlike(case, p) or f"most at {theta:.1f} degrees"
+    place = parameters.unlike(case, p) or f"most at {theta:.1f} degrees"
     return f"{place}: {due:.6g} is expected there"
 
 
@@ -156,7 +156,7 @@ def curves(model: Model, p: Any, last: float, phi_deg: float) -> list[list[tuple
     angles = [*(float(t) for t in range(90) if t < last), last]
     found = []
     for one in channels(p):
-        truths = [(t, truth.independent(model, one, t, phi_deg)) for t in angles]
+        truths = [(t, _truth.independent(model, one, t, phi_deg)) for t in angles]
         found.append([(t, known.value) for t, known in truths if known])
     return [curve for curve in found if curve]
 
@@ -179,17 +179,17 @@ def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:
         return _adaptive(model, case.p, wo, plan)
     chosen = [s for s in samplers_of(model) if case.samplers is None or s in case.samplers]
     names = [integrand_name(model, "albedo", s) for s in chosen]
-    blind = [s for s in chosen if s in fitness.SCALE]
+    blind = [s for s in chosen if s in trust.SCALE]
     if model.sample and model.pdf:
         names += [f"second_{s}" for s in blind]
     rows = estimates(model, case.p, wo, names, plan, (NAME,))
     result = []
     for row, one in zip(rows, case.sets, strict=True):
-        sight = fitness.look(model, one, wo)
+        sight = trust.look(model, one, wo)
         seconds = dict(zip(blind, row[len(chosen) :], strict=False))
         result.append(
             [
-                fitness.measured(s, e, sight, seconds.get(s))
+                trust.measured(s, e, sight, seconds.get(s))
                 for s, e in zip(chosen, row, strict=False)
             ]
         )

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import directions, interiors
-from montecarlo_brdf.checks.case import Case, pointwise
+from montecarlo_brdf.cases import directions, parameters
+from montecarlo_brdf.cases.case import Case, pointwise
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference, Skip, worst_of
 
 NAME = "isotropy"
@@ -40,7 +40,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 
 def _worst(case: Case) -> Exact:
-    sets = enumerate((*interiors.sets(case, 2), *interiors.ends(case)))
+    sets = enumerate((*parameters.sets(case, 2), *parameters.ends(case)))
     return worst_of(_worst_turned(case, p, case.random(NAME, k)) for k, p in sets)
 
 
@@ -56,7 +56,7 @@ def _worst_turned(case: Case, p: Any, rng: Any) -> Exact:
         apart = np.abs(before - after)
         change = directions.unexplained(change, apart, TOLERANCE, f, wo, wi, rng)
     k = int(np.argmax(change))
-    where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+    where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = f"f depends on the azimuth itself (turned by {np.degrees(phi[k]):.0f} degrees)"
     return Exact(float(change[k]), 0.0, where, len(wo), hint=hint)
 

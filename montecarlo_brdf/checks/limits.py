@@ -11,8 +11,9 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterator
 
-from montecarlo_brdf.checks import equality, furnace, interiors
-from montecarlo_brdf.checks.case import Case
+from montecarlo_brdf.cases import parameters
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import equality, furnace
 from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
     Claim,
@@ -83,7 +84,7 @@ def _limit(case: Case, changes: dict[str, float], spec: str) -> Claim:
 def _worst(case: Case, spec: str) -> Exact:
     """The largest difference from the other model, also where other parameters differ."""
     other = load(spec)
-    looks = enumerate((*interiors.sets(case), *interiors.ends(case)))
+    looks = enumerate((*parameters.sets(case), *parameters.ends(case)))
     return worst_of(
         equality.difference(case, p, other, equality.shared(other, p), case.random(NAME, spec, k))
         for k, p in looks

@@ -17,18 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import drawn, in_slopes, interiors
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration.evaluate import estimates
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.judge.claim import (
-    Claim,
-    ExactClaim,
-    MeanClaim,
-    Measurement,
-    Reference,
-    Skip,
-)
+from montecarlo_brdf.cases import parameters
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import _draws, _slopes
+from montecarlo_brdf.estimate.evaluate import estimates
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import Claim, ExactClaim, MeanClaim, Reference, Skip
 from montecarlo_brdf.statistics import Estimate, hidden_error
 
 NAME = "pdf"
@@ -46,33 +41,33 @@ def claims(case: Case) -> Iterator[Claim]:
         yield Skip("pdf", f"model {case.model.name} has no sampler")
         return
     for theta in case.theta_o_deg:
-        yield _claim(case, theta, "drawn directions at fault", 0.0, drawn.faults)
+        yield _claim(case, theta, "drawn directions at fault", 0.0, _draws.faults)
         if case.model.pdf is not None:
             yield _normalisation(case, theta)
             yield from _pointwise(case, theta)
-    for other, theta in (*interiors.elsewhere(case), (case, GRAZING), *interiors.at_ends(case)):
-        yield _claim(other, theta, "drawn directions at fault", 0.0, drawn.faults)
+    for other, theta in (*parameters.elsewhere(case), (case, GRAZING), *parameters.at_ends(case)):
+        yield _claim(other, theta, "drawn directions at fault", 0.0, _draws.faults)
         if case.model.pdf is not None:
             if resolved(other, theta):
                 yield _normalisation(other, theta)
             yield from _pointwise(other, theta)
     if case.model.pdf is not None:
-        yield _claim(case, None, "values of pdf at fault", 0.0, drawn.values)
+        yield _claim(case, None, "values of pdf at fault", 0.0, _draws.values)
 
 
 def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
     """What holds draw by draw."""
-    if drawn.chooses(case, theta):
+    if _draws.chooses(case, theta):
         yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
     else:
-        yield _claim(case, theta, "|pdf Jacobian - 1|", drawn.JACOBIAN_TOLERANCE, drawn.jacobian)
-    if np.isfinite(drawn.draws(case, theta)[2]).any():
-        yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", drawn.UNIT_TOLERANCE, drawn.weight)
+        yield _claim(case, theta, "|pdf Jacobian - 1|", _draws.JACOBIAN_TOLERANCE, _draws.jacobian)
+    if np.isfinite(_draws.draws(case, theta)[2]).any():
+        yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, _draws.weight)
 
 
 def resolved(case: Case, theta: float) -> bool:
     """Whether the quadrature of pdf is good enough to judge by."""
-    found = drawn.density_integral(case, theta)
+    found = _draws.density_integral(case, theta)
     return bool(found.error <= 0.25 * MASS_TOLERANCE)
 
 
@@ -89,7 +84,7 @@ def _claim(case: Case, theta: Any, quantity: str, tolerance: float, evaluate: An
 
 
 def _where(case: Case, theta: Any) -> dict[str, Any]:
-    return interiors.changed(case, case.one) if theta is None else interiors.where(case, theta)
+    return parameters.changed(case, case.one) if theta is None else parameters.where(case, theta)
 
 
 def _normalisation(case: Case, theta: float) -> MeanClaim:
@@ -108,8 +103,8 @@ def _normalisation(case: Case, theta: float) -> MeanClaim:
 
 def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:
     """The same where a density with steps is more than the quadrature resolves."""
-    found = in_slopes.mass(case.model, case.one, case.wo(theta), seed)
-    if drawn.density_integral(case, theta).missed > MASS_TOLERANCE:
+    found = _slopes.mass(case.model, case.one, case.wo(theta), seed)
+    if _draws.density_integral(case, theta).missed > MASS_TOLERANCE:
         found = found._replace(unfit="a lobe where half vectors do not show it")
     rejected = _rejected(case, theta, Plan(samples=found.estimate.samples, seed=seed))
     stderr = math.hypot(found.estimate.stderr, rejected.stderr)
@@ -125,7 +120,7 @@ def _rejected(case: Case, theta: float, plan: Plan) -> Estimate:
 
 def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     """int pdf by quadrature plus the rejected fraction by draws."""
-    integral = drawn.density_integral(case, theta)
+    integral = _draws.density_integral(case, theta)
     rejected = _rejected(case, theta, plan)
     unfit = None
     if not integral.error <= 0.25 * case.tolerated(MASS_TOLERANCE) + 1e-9:

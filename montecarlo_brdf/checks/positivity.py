@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import directions, interiors
-from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.integration import scattered
+from montecarlo_brdf.cases import directions, parameters
+from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.estimate import scattered
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference
 
 NAME = "positivity"
@@ -60,7 +60,7 @@ def _lowest(case: Case) -> Any:
 
 
 def _values(case: Case) -> Iterator[tuple[Any, Any, Any, Any]]:
-    looks: list[tuple[Any, ...]] = [(p,) for p in (*interiors.sets(case), *interiors.ends(case))]
+    looks: list[tuple[Any, ...]] = [(p,) for p in (*parameters.sets(case), *parameters.ends(case))]
     if case.free:
         looks.append(directions.worst_pair(case, case.random(NAME, "all"), _lowest(case)))
     for k, (p, *more) in enumerate(looks):
@@ -82,7 +82,7 @@ def _not_finite(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> E
     bad, points = ~np.isfinite(f), found.points + len(f)
     if bad.any() and not found.value:
         k = int(np.argmax(bad))
-        where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+        where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
         hint = f"f is {f[k]} at {_name(wo[k], wi[k])}: look for 0/0, 1/0 or the root of a negative"
         return Exact(float(bad.sum()), 0.0, where, points, hint=hint)
     return found._replace(value=found.value + float(bad.sum()), points=points)
@@ -98,7 +98,7 @@ def _smallest(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> Exa
     if value.min() >= found.value:
         return found._replace(points=points)
     k = low[int(np.argmin(value))]
-    where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+    where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = f"f = {f[k]:.6g} at {_name(wo[k], wi[k])}"
     return Exact(float(value.min()), 0.0, where, points, hint=hint)
 

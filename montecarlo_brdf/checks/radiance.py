@@ -14,23 +14,18 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import fitness, in_slopes, interiors, truth
-from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.checks.lobe_coordinates import integrate
-from montecarlo_brdf.integration import integrands
-from montecarlo_brdf.integration.evaluate import evaluate
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.probe import returns_weight
-from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
-from montecarlo_brdf.integration.subject import subject_of
-from montecarlo_brdf.judge.claim import (
-    AGREEMENT_TOLERANCE,
-    Claim,
-    MeanClaim,
-    Measurement,
-    Reference,
-    Skip,
-)
+from montecarlo_brdf.cases import parameters
+from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.checks import _slopes, _truth
+from montecarlo_brdf.estimate import integrands, trust
+from montecarlo_brdf.estimate.evaluate import evaluate
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.probe import returns_weight
+from montecarlo_brdf.estimate.quadrature import integrate
+from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
+from montecarlo_brdf.estimate.subject import subject_of
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, MeanClaim, Reference, Skip
 
 NAME = "radiance"
 QUESTION = "does it hold under light that is not constant?"
@@ -87,8 +82,8 @@ def _places(case: Case) -> Iterator[tuple[Case, float, dict[str, Any]]]:
     for theta in case.theta_o_deg:
         yield case, theta, case.where(theta_o_deg=theta)
     if case.model.sample and case.model.pdf is None and returns_weight(case.model):
-        for other, theta in interiors.elsewhere(case):
-            yield other, theta, interiors.where(other, theta)
+        for other, theta in parameters.elsewhere(case):
+            yield other, theta, parameters.where(other, theta)
 
 
 def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measurement] | None:
@@ -96,7 +91,7 @@ def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measuremen
     if samplers_of(case.model)[-1] == "own":
         return None
     place = case.one, case.wo(theta), either_sky, WHICH[name]
-    return functools.partial(in_slopes.radiance, case.model, *place)
+    return functools.partial(_slopes.radiance, case.model, *place)
 
 
 def _expected(case: Case, theta: float, sky: Any) -> Reference | None:
@@ -105,8 +100,8 @@ def _expected(case: Case, theta: float, sky: Any) -> Reference | None:
     def integrand(wi: Any) -> Any:
         return functions.f(wo, wi) * wi[:, 2] * sky(wi.T)
 
-    seen = truth.probes(case.model, case.one, wo)
-    found = integrate(integrand, truth.coordinates(case.model, case.one, wo), probes=seen)
+    seen = _truth.probes(case.model, case.one, wo)
+    found = integrate(integrand, _truth.coordinates(case.model, case.one, wo), probes=seen)
     if not found.error <= 0.25 * TOLERANCE * abs(found.value):
         return None
     return Reference(found.value, found.error, "quadrature of the same f", "lobe coordinates")
@@ -118,5 +113,5 @@ def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measuremen
     functions = [getattr(integrands, integrand_name(model, "radiance", s)) for s in chosen]
     subject = subject_of(model, case.one, SKY=either_sky)
     row = evaluate(subject, (*wo, WHICH[name]), functions, plan, (name, NAME))[0]
-    sight = fitness.look(model, case.one, wo)
-    return [fitness.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]
+    sight = trust.look(model, case.one, wo)
+    return [trust.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import directions, interiors
-from montecarlo_brdf.checks.case import Case, pointwise
-from montecarlo_brdf.integration import scattered
+from montecarlo_brdf.cases import directions, parameters
+from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.estimate import scattered
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference, worst_of
 
 NAME = "reciprocity"
@@ -42,7 +42,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 def worst(case: Case) -> Exact:
     """The worst pair over all parameter sets."""
-    looks = [_worst_of(case, p, case.random(NAME, k)) for k, p in enumerate(interiors.sets(case))]
+    looks = [_worst_of(case, p, case.random(NAME, k)) for k, p in enumerate(parameters.sets(case))]
 
     def asymmetry(wo: Any, wi: Any, sets: scattered.Rows) -> Any:
         there = scattered.pair_values(case.model, wo, wi, sets)
@@ -73,7 +73,7 @@ def _worst_of(case: Case, p: Any, rng: Any, *more: Any) -> Exact:
     if relative[k] > TOLERANCE:
         relative = directions.unexplained(relative, np.abs(there - back), TOLERANCE, f, wo, wi, rng)
     k = int(np.argmax(relative))
-    where = {**interiors.changed(case, p), **directions.place(wo[k], wi[k])}
+    where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = _hint(there[k], back[k], wo[k], wi[k])
     if relative[k] > TOLERANCE and "cosine" not in hint and _one_sided(case, p, rng):
         hint += ": f is symmetric but for a factor that depends on one direction alone"

@@ -15,11 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.checks import drawn, interiors
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.cells import COARSE, FINE, FINEST, UNSURE, Cells
-from montecarlo_brdf.integration.counting import COLUMNS, ROWS
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.cases import parameters
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import _draws
+from montecarlo_brdf.checks._cells import COARSE, FINE, FINEST, UNSURE, Cells
+from montecarlo_brdf.estimate.counting import COLUMNS, ROWS
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Fit, FitClaim, Skip
 from montecarlo_brdf.sampling.streams import stream
 
@@ -49,8 +50,8 @@ def claims(case: Case) -> Iterator[Claim]:
             property=PROPERTY,
         )
     # one lobe of several can be wrong where only all of them together tell
-    ends = interiors.at_ends(case) if drawn.chooses(case, case.theta_o_deg[0]) else ()
-    for other, theta in (*interiors.elsewhere(case), *ends):
+    ends = parameters.at_ends(case) if _draws.chooses(case, case.theta_o_deg[0]) else ()
+    for other, theta in (*parameters.elsewhere(case), *ends):
         cells = tables(other, theta)
         if 0.0 < cells(COARSE).tables[2] < HEAVIEST:  # else see `pdf`
             yield _elsewhere(other, theta, cells)
@@ -62,7 +63,7 @@ def _elsewhere(case: Case, theta: float, cells: Any) -> FitClaim:
     measure = refined(case, theta, cells, tolerance, COARSE, FINE, FINEST)
     return FitClaim(
         "distance of draws from pdf",
-        interiors.where(case, theta),
+        parameters.where(case, theta),
         tolerance,
         lambda plan, level: measure(plan._replace(samples=min(plan.samples, FEWER)), level),
         property=PROPERTY,
@@ -95,7 +96,7 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     mass = cells.tables[2]
     if not 0.0 < mass < HEAVIEST:
         return Fit(math.nan, math.inf, 1.0, 0, f"the pdf has mass {mass:.4g}: see `pdf`")
-    if drawn.density_integral(case, theta).missed > UNSURE:
+    if _draws.density_integral(case, theta).missed > UNSURE:
         hidden = "a lobe of pdf lies where half vectors do not show it"
         return Fit(math.nan, math.inf, 1.0, 0, hidden)
     n = min(math.ceil(DRAWS * plan.samples), MOST)

@@ -102,7 +102,7 @@ def execute(arguments: list[str]) -> int:
         return _say(f"Error: {_sentence(error)}", error.exit_code)
     except UserError as error:
         return _say(f"Error: {error}", error.exit_code)
-    except OSError as error:  # files are written by report.write, so this is stdout
+    except OSError as error:  # files are written by files, so this is stdout
         _discard(sys.stdout)
         if isinstance(error, BrokenPipeError):  # `| head`: nobody reads an error message either
             return OutputError.exit_code

@@ -119,7 +119,7 @@ def exports() -> dict[Path, str]:
 
 def check_outputs(form: str, *paths: Path | None) -> None:
     """Complain about outputs before hours of work, not after."""
-    from montecarlo_brdf.report.write import check_writable
+    from montecarlo_brdf.files import check_writable
 
     if form not in FORMATS:
         raise UserError(unknown("format", form, FORMATS))
@@ -168,7 +168,7 @@ def deliver(
 
 def write_exports(report: Any, export_json: Path | None) -> None:
     """--export-json and every --export."""
-    from montecarlo_brdf.report.write import write_text
+    from montecarlo_brdf.files import write_text
 
     wanted = {**exports(), **({export_json: "json"} if export_json else {})}
     for path, form in wanted.items():

@@ -13,7 +13,7 @@ from montecarlo_brdf import checks, loading
 from montecarlo_brdf.cli._jobs import Job, with_parameters
 from montecarlo_brdf.cli._values import numbers
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration.arguments import check_theta
+from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.scene.toml import Path_, Table, parse
 

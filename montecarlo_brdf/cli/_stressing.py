@@ -54,8 +54,8 @@ def deliver(report: Any, found: Any, options: dict[str, Any]) -> int:
     """Text from the measurements; everything else as any report."""
     if options["form"] != "text":
         return _options.deliver(report, options["form"], options["export_json"], None, False)
+    from montecarlo_brdf.files import write_text
     from montecarlo_brdf.report.stress import show
-    from montecarlo_brdf.report.write import write_text
 
     if options["export_json"] is not None:
         write_text(options["export_json"], report.to_json())

@@ -43,10 +43,10 @@ def command(**options: Any) -> int:
     from montecarlo_brdf.bench import measure, throughput
     from montecarlo_brdf.bench.workloads import WORKLOADS
     from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.files import check_writable, write_text
     from montecarlo_brdf.judge.finding import versions
     from montecarlo_brdf.report.bench_markdown import markdown
     from montecarlo_brdf.report.plots import save
-    from montecarlo_brdf.report.write import check_writable, write_text
 
     paths = [options[k] for k in ("export_json", "tables", "plot")]
     for path in filter(None, paths):

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.trust import Measurement
 
 #: Tolerances are stated, not discovered (design: the verdict is the product).
 BOUND_TOLERANCE = 1e-5  # absolute, for "at most 1"
@@ -22,21 +22,6 @@ class Reference(NamedTuple):
     kind: str
     source: str
 
-
-class Measurement(NamedTuple):
-    """One estimator's answer; `unfit` says why it must not be believed.
-
-    A deterministic estimator knows a bound on its error instead of a spread: `bound`.
-    """
-
-    estimator: str
-    estimate: Estimate
-    unfit: str | None = None
-    bound: float | None = None
-
-    def half_width(self, level: float) -> float:
-        """Half the width of the interval that misses the truth with probability `level` at most."""
-        return self.estimate.half_width(level) if self.bound is None else self.bound
 
 
 class Exact(NamedTuple):

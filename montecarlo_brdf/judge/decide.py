@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, ExactClaim, FitClaim, Skip
 from montecarlo_brdf.judge.exact import exact_finding
 from montecarlo_brdf.judge.finding import Finding

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import FitClaim
 from montecarlo_brdf.judge.finding import Finding
 from montecarlo_brdf.judge.looks import FRESH, looks

@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import MeanClaim
 from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.hint import hint
 from montecarlo_brdf.judge.looks import FRESH, GROWTH, looks
 from montecarlo_brdf.judge.opinions import (
     Opinion,
@@ -170,8 +171,6 @@ def _finding(
 
 
 def _hint(claim: MeanClaim, value: float, opinions: list[Opinion]) -> str | None:
-    from montecarlo_brdf.checks.hints import hint  # imports numpy, which a pass does without
-
     found = [(o.measurement.estimator, o.measurement.estimate.mean) for o in opinions]
     # where only the model's own draws spoil the mean it is rather the pdf that they are divided by
     others = [v for name, v in found if name != "own"]

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from montecarlo_brdf import student
-from montecarlo_brdf.judge.claim import MeanClaim, Measurement, Reference
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import MeanClaim, Reference
 from montecarlo_brdf.judge.looks import beyond
 from montecarlo_brdf.statistics import FLOOR
 

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.files import write_bytes
 from montecarlo_brdf.report.convergence_plots import convergence_figure
 from montecarlo_brdf.report.scene_plots import radiance_figure
-from montecarlo_brdf.report.write import write_bytes
 
 KINDS = ("png", "svg", "pdf")
 #: Okabe and Ito's colours: told apart by everyone. One per parameter set or channel.

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import OutputError, UserError
+from montecarlo_brdf.files import write_bytes
 from montecarlo_brdf.report import panels
-from montecarlo_brdf.report.write import write_bytes
 
 KINDS = ("png", "npy", "exr")
 

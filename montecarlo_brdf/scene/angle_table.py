@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from montecarlo_brdf.integration import adaptive
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import charts_of
+from montecarlo_brdf.estimate import adaptive
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.samplers import charts_of
 from montecarlo_brdf.scene.pixels import PLACE, means
 from montecarlo_brdf.scene.plan import Work
 from montecarlo_brdf.scene.radiance import constant_values

@@ -11,14 +11,9 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.judge.claim import (
-    AGREEMENT_TOLERANCE,
-    BOUND_TOLERANCE,
-    MeanClaim,
-    Measurement,
-    Reference,
-)
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, BOUND_TOLERANCE, MeanClaim, Reference
 from montecarlo_brdf.scene import plan as planning
 from montecarlo_brdf.scene import radiance, standard, truth
 from montecarlo_brdf.scene.plan import ScenePlan, View

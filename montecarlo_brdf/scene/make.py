@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration.arguments import check_theta
+from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.scene.image import read_image
 from montecarlo_brdf.scene.scene import Scene, View

@@ -13,11 +13,12 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.bits import u64
+from montecarlo_brdf.compile import kernel
+from montecarlo_brdf.compile.bind import Specialiser
+from montecarlo_brdf.compile.kernel import compiled
+from montecarlo_brdf.compile.layout import Layout, pack, unpacker
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.integration import build, parameters
-from montecarlo_brdf.integration.compiled import compiled
-from montecarlo_brdf.integration.specialise import Specialiser
-from montecarlo_brdf.integration.subject import functions_of
+from montecarlo_brdf.estimate.subject import functions_of
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key
 from montecarlo_brdf.scene import integrands, skies
@@ -93,11 +94,11 @@ class Recipe(NamedTuple):
 
     integrand: Callable[..., Any]
     functions: Mapping[str, Any]
-    layout: parameters.Layout
+    layout: Layout
 
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
-        content = build.fingerprint(self.layout)
+        content = kernel.fingerprint(self.layout)
         content.add(point_sets.sobol)
         content.add(self.integrand, self.functions)
         content.add(pixels)
@@ -112,7 +113,7 @@ class Recipe(NamedTuple):
         bound = {
             "POINTS": point_sets.sobol,
             "INTEGRAND": special.bind(self.integrand, self.functions),
-            "PARAMETERS": parameters.unpacker(self.layout),
+            "PARAMETERS": unpacker(self.layout),
             "CHANNELS": len(self.layout.places),
         }
         return special.clone(pixels, bound)
@@ -129,7 +130,7 @@ def recipe_of(work: Any) -> tuple[Recipe, list[float]]:
         functions |= {"SKY_SAMPLE": integrands.cosine_sample, "SKY_PDF": integrands.cosine_pdf}
     name = "weighted" if work.method == "own" and weighted(model) else work.method
     name = "cosine" if name == "one value" else name
-    layout, numbers = parameters.pack([Lit(model.prepared(p), s) for p, s in work.sets], 0)
+    layout, numbers = pack([Lit(model.prepared(p), s) for p, s in work.sets], 0)
     return Recipe(getattr(integrands, name), functions, layout), numbers
 
 

@@ -6,11 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.integration import probe
-from montecarlo_brdf.integration.evaluate import evaluate
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.subject import Subject, functions_of
-from montecarlo_brdf.judge.claim import Measurement
+from montecarlo_brdf.estimate import probe
+from montecarlo_brdf.estimate.evaluate import evaluate
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.subject import Subject, functions_of
+from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import integrands, skies
 from montecarlo_brdf.scene.methods import unscaled

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.integration.pointwise import Pointwise
+from montecarlo_brdf.estimate.pointwise import Pointwise
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.angle_table import tabulated

@@ -11,8 +11,8 @@ import functools
 import math
 from typing import Any
 
-from montecarlo_brdf.checks import remembered
-from montecarlo_brdf.integration.pointwise import Pointwise
+from montecarlo_brdf.checks import _remembered
+from montecarlo_brdf.estimate.pointwise import Pointwise
 from montecarlo_brdf.judge.claim import Reference
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.references import _irradiance, _lit
@@ -128,7 +128,7 @@ def _of_shape(model: Model, p: Any, shape: Any, wo: Vec) -> Reference:
 
 def _albedo(model: Model, p: Any, wo: Vec) -> Any:
     turned = {} if model.isotropic else {"phi_o": math.atan2(wo[1], wo[0])}
-    return remembered.albedo(model.name, wo[2], **p._asdict(), **model.picks, **turned)
+    return _remembered.albedo(model.name, wo[2], **p._asdict(), **model.picks, **turned)
 
 
 def _closed(model: Model, p: Any, shape: Any, wo: Vec) -> Reference | None:

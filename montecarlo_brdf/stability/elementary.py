@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from montecarlo_brdf import bits, special
-from montecarlo_brdf.integration.specialise import Specialiser
+from montecarlo_brdf.compile.bind import Specialiser
 from montecarlo_brdf.stability.arithmetic import Arithmetic
 from montecarlo_brdf.stability.batch import Batch, Whole
 

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration.arguments import check_samples
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import SAMPLERS, samplers_of
+from montecarlo_brdf.estimate.arguments import check_samples
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.samplers import SAMPLERS, samplers_of
 from montecarlo_brdf.judge.claim import Claim
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result

@@ -5,11 +5,11 @@ import time
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import equality
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.truth import quadrature
-from montecarlo_brdf.integration.arguments import check_theta
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.checks._truth import quadrature
+from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, Exact, ExactClaim, Reference
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Report, Result

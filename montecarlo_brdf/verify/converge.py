@@ -6,19 +6,19 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from montecarlo_brdf.checks import convergence as check
-from montecarlo_brdf.checks import truth
-from montecarlo_brdf.checks.case import Case
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import _truth
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration import probe
-from montecarlo_brdf.integration.arguments import check_theta
-from montecarlo_brdf.integration.estimators import directional_albedo
-from montecarlo_brdf.integration.plan import Plan
-from montecarlo_brdf.integration.samplers import charts_of, samplers_of
+from montecarlo_brdf.estimate import probe
+from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.estimate.estimators import directional_albedo
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.samplers import charts_of, samplers_of
 from montecarlo_brdf.judge.claim import Reference
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import SETS
+from montecarlo_brdf.verify import _convergence as check
 from montecarlo_brdf.verify.common import (
     Progress,
     plan_settings,
@@ -100,7 +100,7 @@ def _chosen(kind: str, asked: str | Sequence[str], offered: tuple[str, ...]) -> 
 
 def _known(case: Case, theta: float) -> Reference:
     """The reference; for a model without one, an adaptive estimate with its own error bar."""
-    found = truth.albedo(case.model, case.one, theta, case.phi_o_deg)
+    found = _truth.albedo(case.model, case.one, theta, case.phi_o_deg)
     if found is None or not found.value:
         e = directional_albedo(
             case.model, case.one, theta, phi_o_deg=case.phi_o_deg, target_error=1e-10

@@ -5,10 +5,10 @@ import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import furnace as furnace_check
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration import adaptive
-from montecarlo_brdf.integration.arguments import check_theta
+from montecarlo_brdf.estimate import adaptive
+from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.judge.finding import Report, Result
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify.common import (
@@ -26,7 +26,7 @@ from montecarlo_brdf.verify.common import (
 from montecarlo_brdf.verify.subject import probed, source
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.integration.partial_sums import PartialSums
+    from montecarlo_brdf.estimate.partial_sums import PartialSums
 
 ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0)
 

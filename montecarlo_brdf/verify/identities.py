@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import time
 
-from montecarlo_brdf.checks import identities as identities_check
 from montecarlo_brdf.judge.finding import Report, Result
+from montecarlo_brdf.verify import _identities as identities_check
 from montecarlo_brdf.verify.common import (
     SAMPLES,
     Progress,

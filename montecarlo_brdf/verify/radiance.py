@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from montecarlo_brdf.integration import probe
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate import probe
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result

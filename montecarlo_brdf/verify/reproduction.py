@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import shlex
 
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.verify.common import exactly, shown_parameters
 
 RUN_SAMPLES = 1 << 20

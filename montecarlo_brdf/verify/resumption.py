@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.integration.partial_sums import PartialSums
-from montecarlo_brdf.report.write import check_writable, write_text
+from montecarlo_brdf.estimate.partial_sums import PartialSums
+from montecarlo_brdf.files import check_writable, write_text
 
 
 @contextlib.contextmanager

@@ -10,9 +10,9 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from montecarlo_brdf import checks
-from montecarlo_brdf.checks.case import Case, searched
+from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.integration.arguments import check_theta
+from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify.common import (

@@ -5,7 +5,7 @@ import os
 from typing import Any
 
 from montecarlo_brdf.errors import TooSlow
-from montecarlo_brdf.integration import probe
+from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify.common import Deadline
 from montecarlo_brdf.verify.supervision import supervised

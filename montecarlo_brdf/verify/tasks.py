@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from montecarlo_brdf import checks
-from montecarlo_brdf.checks.case import Case
+from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.errors import TooSlow
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Result
 from montecarlo_brdf.verify.common import Deadline, Progress, shown_parameters

@@ -20,9 +20,9 @@ from conftest import Outcome
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks, load
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.integration import work
-from montecarlo_brdf.integration.estimators import directional_albedo
-from montecarlo_brdf.integration.kernel import BLOCK
+from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate.estimators import directional_albedo
+from montecarlo_brdf.estimate.moments import BLOCK
 from montecarlo_brdf.verify import subject
 from montecarlo_brdf.verify.common import Deadline
 from montecarlo_brdf.verify.supervision import supervised

@@ -5,9 +5,9 @@ import pytest
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.bits import u32
-from montecarlo_brdf.checks import convergence
-from montecarlo_brdf.integration import build
+from montecarlo_brdf.compile import kernel
 from montecarlo_brdf.sampling import charts, points, sobol
+from montecarlo_brdf.verify import _convergence
 from montecarlo_brdf.verify.converge import converge
 
 SMALL = 1 << 17
@@ -22,10 +22,10 @@ def verdicts(report):
 @pytest.fixture
 def fresh_kernels(monkeypatch):
     """Functions already compiled would hide what a test replaces."""
-    monkeypatch.setattr(build, "_seen", {})
-    build.specialiser.cache_clear()
+    monkeypatch.setattr(kernel, "_seen", {})
+    kernel.specialiser.cache_clear()
     yield
-    build.specialiser.cache_clear()
+    kernel.specialiser.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -42,7 +42,7 @@ def test_charts_converge_as_claimed(name, values, theta, chart):
     report = converge(model, model.parameters(**values), theta, sampler=chart)
     assert set(verdicts(report).values()) == {"pass"}
     for finding in report.results[0].findings:
-        assert finding.value < convergence.CLAIMS[finding.where["points"]][0] + convergence.SLACK
+        assert finding.value < _convergence.CLAIMS[finding.where["points"]][0] + _convergence.SLACK
 
 
 @pytest.mark.parametrize("sampler", ["cosine", "own"])

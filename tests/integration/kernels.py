@@ -6,8 +6,11 @@ import types
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from montecarlo_brdf.integration import build, integrands, kernel, parameters, work
-from montecarlo_brdf.integration.recipe import Recipe
+from montecarlo_brdf.compile import kernel
+from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.estimate import integrands, work
+from montecarlo_brdf.estimate.moments import QUERY
+from montecarlo_brdf.estimate.recipe import Recipe
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling import points as sets
 from montecarlo_brdf.statistics import Moments
@@ -24,9 +27,9 @@ def functions(model: Model) -> dict[str, Any]:
 def job(model: Model, rows: Sequence[Any], names: Sequence[str], points: str, key: int,
         samples: int, replicates: int = 1) -> work.Job:  # fmt: skip
     """What `evaluate` asks of `work.run`, with its key chosen here."""
-    layout, numbers = parameters.pack([model.prepared(p) for p in rows], kernel.QUERY)
+    layout, numbers = pack([model.prepared(p) for p in rows], QUERY)
     kinds = tuple(getattr(integrands, n) for n in names)
-    entry = build.kernel_of(Recipe(points, kinds, functions(model), layout))
+    entry = kernel.kernel_of(Recipe(points, kinds, functions(model), layout))
     shape = sets.SHAPES[points](samples) if points in sets.SHAPES else sets.NONE
     width = len(rows) * len(names)
     return work.Job(entry, (*WO, 0.0, *numbers), width, key, replicates, samples, shape)

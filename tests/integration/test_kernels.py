@@ -8,8 +8,8 @@ import kernels
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.integration import work
-from montecarlo_brdf.integration.samplers import integrand_name, samplers_of
+from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
 from montecarlo_brdf.statistics import Moments
 
 #: model -> quantities; every integrand at least once

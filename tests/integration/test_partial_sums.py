@@ -13,8 +13,8 @@ from conftest import Outcome
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.integration import work
-from montecarlo_brdf.integration.partial_sums import PartialSums
+from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate.partial_sums import PartialSums
 
 MANY = ["furnace", "--model", "ggx", "--theta-o", "40", "--sampler", "cosine", "--points",
         "independent", "--tolerance", "1e-7", "--samples", "2^22", "--format", "json"]  # fmt: skip

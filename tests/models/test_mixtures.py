@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.checks import truth
+from montecarlo_brdf.checks import _truth
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.vectors import from_degrees
 
@@ -46,7 +46,7 @@ def test_values(entry: dict[str, Any]) -> None:
 @pytest.mark.parametrize("entry", entries("albedo"), ids=lambda e: str(e["theta_o_deg"]))
 def test_albedos(entry: dict[str, Any]) -> None:
     model, p = surface(entry["params"])
-    found = truth.independent(model, p, entry["theta_o_deg"])
+    found = _truth.independent(model, p, entry["theta_o_deg"])
     assert found is not None
     exact = float(entry["value"])
     assert abs(found.value - exact) <= max(1e-11, 10.0 ** -(entry["digits"] - 1)) * exact
@@ -77,6 +77,6 @@ def test_own_sampling_agrees_with_the_reference() -> None:
     model = mb.load("0.6 lambert + 0.4 ggx")
     p = model.parameters(**{"ggx.alpha": 0.05})
     e = mb.directional_albedo(model, p, 70.0, sampler="own", samples=2**18)
-    exact = truth.independent(model, p, 70.0)
+    exact = _truth.independent(model, p, 70.0)
     assert exact is not None
     assert abs(e.mean - exact.value) <= e.half_width(1e-7)

@@ -15,8 +15,8 @@ from typing import Any
 import pytest
 
 from montecarlo_brdf import load
-from montecarlo_brdf.integration.evaluate import estimates
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.evaluate import estimates
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.vectors import from_degrees
 
 LEVEL = 1e-7

@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 from drills import QUICK, results, run, start, truth, warm
 
-from montecarlo_brdf.integration import cache as kernels
+from montecarlo_brdf.compile import cache as kernels
 
 PR_CAPBSET_DROP, CAP_DAC_OVERRIDE = 24, 1  # linux/prctl.h, linux/capability.h
 

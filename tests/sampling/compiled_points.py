@@ -8,9 +8,8 @@ from typing import Any
 import numba
 import numpy as np
 
-from montecarlo_brdf import jit
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.integration import build
+from montecarlo_brdf.compile import compiler, kernel
 from montecarlo_brdf.sampling import points as sets
 
 POINTS: Any = None
@@ -34,7 +33,7 @@ def warp(u1: Any, u2: Any, out: Any) -> None:
 
 @functools.cache
 def compiled(template: Callable[..., None], **bound: Any) -> Any:
-    return numba.njit(**jit.options())(build.specialiser().clone(template, bound))
+    return numba.njit(**compiler.options())(kernel.specialiser().clone(template, bound))
 
 
 def shape_of(name: str, count: int) -> sets.Shape:

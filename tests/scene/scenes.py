@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import claims, radiance
 from montecarlo_brdf.scene.read import read_scene
 from montecarlo_brdf.scene.scene import Scene

@@ -10,7 +10,7 @@ from scenes import written
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading, references
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import claims
 from montecarlo_brdf.scene.make import scene_of
 from montecarlo_brdf.scene.reverse import reversed_scene

@@ -9,7 +9,7 @@ import pytest
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import student
-from montecarlo_brdf.integration.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import plan, radiance, skies, truth
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.sky_tables import cap_of

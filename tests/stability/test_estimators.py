@@ -13,16 +13,16 @@ import numpy as np
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.integration import kernel, work
+from montecarlo_brdf.estimate import moments, work
 from montecarlo_brdf.statistics import Moments
 
 
 def block(values: np.ndarray) -> Moments:
     """The state that the kernel's merge_block leaves after these values."""
-    out = [0.0] * kernel.STATE
+    out = [0.0] * moments.STATE
     x = values.tolist()
-    for start in range(0, len(x), kernel.BLOCK):
-        kernel.merge_block(x, start, min(kernel.BLOCK, len(x) - start), out, 0)
+    for start in range(0, len(x), moments.BLOCK):
+        moments.merge_block(x, start, min(moments.BLOCK, len(x) - start), out, 0)
     return Moments(*out)
 
 

@@ -6,12 +6,12 @@ import pytest
 from scipy import stats
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.checks.case import Case
-from montecarlo_brdf.checks.cells import CELLS, COARSE, Cells
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks._cells import CELLS, COARSE, Cells
 from montecarlo_brdf.checks.sampling import judged
-from montecarlo_brdf.integration import counting, tabulating
-from montecarlo_brdf.integration.counting import COLUMNS, ROWS
-from montecarlo_brdf.integration.pointwise import Pointwise
+from montecarlo_brdf.estimate import counting, tabulating
+from montecarlo_brdf.estimate.counting import COLUMNS, ROWS
+from montecarlo_brdf.estimate.pointwise import Pointwise
 
 
 def by_numpy(cells: Cells, w: np.ndarray) -> np.ndarray:

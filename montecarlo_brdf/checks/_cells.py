@@ -1,0 +1,94 @@
+"""Cells of equal probability under a sampler's pdf, in coordinates that follow its lobe."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import numpy as np
+
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks._truth import lobe_scale
+from montecarlo_brdf.estimate import counting, tabulating
+from montecarlo_brdf.estimate.quadrature import Coordinates
+
+COARSE, FINE, FINEST = (384, 256), (768, 512), (1536, 1024)  # grids of tabulated densities
+UNSURE = 0.01  # a rejected share that steps of the density may feign
+JITTERED = 0x5EED  # the key of places at random in their squares
+CELLS = counting.ROWS * counting.COLUMNS
+
+
+class Cells:
+    """Columns of equal probability by the pdf's marginal in azimuth, rows by its conditionals."""
+
+    def __init__(self, case: Case, theta: float, size: tuple[int, int] = FINE) -> None:
+        self.size = size
+        self.model, self.p = case.model, case.one
+        self.wo = np.array(case.wo(theta))
+        self.coordinates = Coordinates(self.wo, lobe_scale(case.model, case.one, self.wo))
+
+    @functools.cached_property
+    def tables(self) -> tuple[Any, Any, float]:
+        """(cumulated marginal in b, cumulated conditionals in x, total mass), midpoint rule."""
+        density, _ = tabulating.tabulated(self.model, self.p, self.place, self.size)
+        density = density.reshape(self.size)
+        columns = np.concatenate([np.zeros((1, self.size[1])), np.cumsum(density, axis=0)])
+        marginal = np.concatenate([[0.0], np.cumsum(columns[-1])])
+        return marginal, columns, float(marginal[-1])
+
+    @functools.cached_property
+    def jittered(self) -> Any:
+        """The cells' probabilities by another grid, at random in each square."""
+        density, wi = tabulating.tabulated(self.model, self.p, self.place, self.size, JITTERED)
+        cells = counting.placed(self.model, self.p, self.cut, wi)
+        return np.bincount(cells, weights=density, minlength=CELLS)
+
+    @property
+    def error(self) -> float:
+        """Distance between the cells' probabilities by the two grids: what a density with steps
+        leaves unresolved."""
+        each = self.tables[2] / CELLS
+        return float(np.sqrt(np.sum((self.jittered - each) ** 2 / each)))
+
+    @property
+    def place(self) -> tuple[float, ...]:
+        """What compiled code knows of the coordinates."""
+        return (*self.wo, *self.coordinates.turn, self.coordinates.scale)
+
+    @functools.cached_property
+    def cut(self) -> counting.Cut:
+        """The cells as compiled code reads them."""
+        marginal, columns, mass = self.tables
+        inside = (columns / np.maximum(columns[-1], 1e-300)).T
+        rows = [edges(one, counting.ROWS) for one in inside]
+        between = edges(marginal / mass, counting.COLUMNS)
+        return counting.Cut(*self.size, np.concatenate([self.place, between, *rows]))
+
+    def counts(self, key: int, samples: int, threads: int = 1) -> Any:
+        """Draws in each cell, and last those that were rejected or are not finite."""
+        return counting.drawn(self.model, self.p, self.cut, key, samples, threads)
+
+    @property
+    def probability(self) -> Any:
+        """Of each cell, and last of a rejected draw."""
+        mass = self.tables[2]
+        return np.array([mass / CELLS] * CELLS + [max(1.0 - mass, 0.0)])
+
+    @functools.cached_property
+    def rejects(self) -> bool:
+        """Whether draws are rejected at all, as far as the two grids agree on it."""
+        rejected = 1.0 - self.tables[2]
+        if not 0.0 < rejected < UNSURE:
+            return rejected > 0.0
+        return rejected > 3.0 * abs(float(np.sum(self.jittered)) - self.tables[2])
+
+
+def edges(cumulated: Any, parts: int) -> Any:
+    """Where a piecewise linear distribution, given at 0, 1, 2, ..., reaches k/parts; infinity if
+    nowhere."""
+    shares = np.arange(1, parts) / parts
+    after = np.searchsorted(cumulated, shares)
+    inner = np.minimum(after, len(cumulated) - 1)
+    low, high = cumulated[inner - 1], cumulated[inner]
+    reached = inner - 1 + (shares - low) / np.where(high > low, high - low, 1.0)
+    return np.where(after < len(cumulated), reached, np.inf)

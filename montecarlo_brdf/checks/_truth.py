@@ -1,0 +1,203 @@
+"""The expected albedo of a model: declared in its file, our own reference, or a quadrature of f."""
+from __future__ import annotations
+
+import functools
+import math
+from typing import Any
+
+from montecarlo_brdf.checks import _remembered
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Reference
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.vectors import Vec, from_degrees
+
+#: numbers from which lobe coordinates learn the width of a sampler's lobe
+PILOT = 4096
+PROBES = 2048  # of these
+ROUNDING = 4.0 * 2.0**-52
+SHARPEST = 1e-5  # slope of the sharpest lobe that a model without a sampler may have
+
+
+def albedo(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+    """A(wo) as it should be; None if nothing can tell."""
+    return independent(model, one, theta_deg, phi_deg) or same_f(model, one, theta_deg, phi_deg)
+
+
+def independent(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+    """A(wo) from a formula that is not the model's f: declared by the user, or our reference."""
+    mu = from_degrees(theta_deg)[2]
+    if model.albedo:
+        return _declared(model, one, mu)
+    if model.terms:
+        parts = [
+            (_weight(one, t), independent(t.model, t.parameters_of(one), theta_deg, phi_deg))
+            for t in model.terms
+        ]
+        return _sum(parts)
+    if not model.built_in:
+        return None
+    turned = {} if model.isotropic else {"phi_o": math.radians(phi_deg)}
+    truth = _remembered.albedo(model.name, mu, **one._asdict(), **model.picks, **turned)
+    return Reference(*truth) if truth else None
+
+
+def _declared(model: Model, one: Any, mu: float) -> Reference:
+    """What the model's file says, to rounding at the size that it has elsewhere: a sum that cancels
+    at one angle leaves that much there."""
+    assert model.albedo is not None
+    value, *others = (float(model.albedo(m, one)) for m in (mu, 0.1, 0.5, 1.0))
+    size = max((abs(v) for v in others if math.isfinite(v)), default=0.0)
+    return Reference(value, ROUNDING * size, "declared", f"albedo() of {model.name}")
+
+
+def same_f(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+    """A(wo) by deterministic quadrature of f: it can refute samplers and estimators, not f itself.
+
+    None where the quadrature does not resolve f well enough to judge anything by.
+    """
+    value, error = quadrature(model, one, from_degrees(theta_deg, phi_deg))
+    if not error <= 0.25 * AGREEMENT_TOLERANCE * abs(value):
+        return None
+    return Reference(value, error, "quadrature of the same f", "lobe coordinates")
+
+
+@functools.lru_cache(maxsize=1024)
+def quadrature(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> tuple[float, float]:
+    """(A(wo) or, reversed, R(wi); error) in coordinates that follow the lobe."""
+    import numpy as np
+
+    from montecarlo_brdf.cases.case import pointwise
+    from montecarlo_brdf.estimate.quadrature import integrate
+
+    w = np.array(fixed)
+    f = pointwise(model, one).f
+    values = (lambda v: f(v, w)) if reverse else (lambda v: f(w, v))
+    found = integrate(
+        lambda v: values(v) * v[:, 2],
+        coordinates(model, one, w),
+        probes=probes(model, one, w, reverse),
+    )
+    return found.value, found.error
+
+
+def probes(model: Model, one: Any, fixed: Any, reverse: bool = False) -> tuple[Any, ...]:
+    """Directions that may see what a quadrature misses: cosine-weighted, and the model's own."""
+    return (_cosine_probes(), *(() if reverse else own_probes(model, one, fixed)))
+
+
+@functools.cache
+def _cosine_probes() -> tuple[Any, Any]:
+    import numpy as np
+
+    u = _pilot()[:PROBES]
+    r, phi = np.sqrt(u[:, 0]), 2.0 * np.pi * u[:, 1]
+    wi = np.stack([r * np.cos(phi), r * np.sin(phi), np.sqrt(1.0 - u[:, 0])], axis=-1)
+    return wi, np.pi / (PROBES * wi[:, 2])
+
+
+def own_probes(model: Model, one: Any, fixed: Any) -> tuple[Any, ...]:
+    """Draws of the model's sampler, and the solid angle that each stands for; none without one.
+
+    Draws that are no unit vectors lie nowhere.
+    """
+    import numpy as np
+
+    from montecarlo_brdf.cases.case import pointwise
+
+    if not (model.sample and model.pdf):
+        return ()
+    drawn = _drawn(model, one, tuple(map(float, fixed)))[1]
+    density = pointwise(model, one).pdf(np.array(fixed), drawn)
+    unit = np.abs(np.sum(drawn * drawn, axis=1) - 1.0) < 1e-3
+    known = np.isfinite(density) & (density > 0.0) & unit
+    return ((drawn[known], 1.0 / (PROBES * density[known])),)
+
+
+def coordinates(model: Model, one: Any, wo: Any) -> Any:
+    """Coordinates that follow the lobe, at the mirror direction or, where f is larger, at wo."""
+    from montecarlo_brdf.cases.case import pointwise
+    from montecarlo_brdf.cases.directions import MIRROR
+    from montecarlo_brdf.estimate.quadrature import Coordinates
+
+    mirror, f = wo * MIRROR, pointwise(model, one).f
+    if model.sample is None and f(wo, wo)[0] > 2.0 * f(wo, mirror)[0]:
+        return Coordinates(mirror, _probed_scale(model, one, wo, mirror))
+    return Coordinates(wo, lobe_scale(model, one, wo))
+
+
+def deterministic(
+    model: Model, one: Any, fixed: Vec, seed: int = 0, *, reverse: bool = False
+) -> Measurement:
+    """The same as an estimator beside those that sample; the seed changes nothing."""
+    value, error = quadrature(model, one, fixed, reverse)
+    e = Estimate(value, error, 0, (value, value), value * value, value)
+    unfit = None if error <= 1e-5 * abs(value) else f"the quadrature resolves only {error:.0e}"
+    return Measurement("quadrature", e, unfit, error)
+
+
+def lobe_scale(model: Model, one: Any, wo: Any) -> float:
+    """The smallest slope of interest: from the model's own draws, else from values of f."""
+    from montecarlo_brdf.estimate.quadrature import scale_of
+
+    if model.sample is None:
+        return _probed_scale(model, one, wo, wo)
+    return scale_of(wo, _drawn(model, one, tuple(map(float, wo)))[0])
+
+
+@functools.lru_cache(maxsize=8)
+def _drawn(model: Model, one: Any, wo: Vec) -> tuple[Any, Any]:
+    """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first
+    PROBES."""
+    import numpy as np
+
+    from montecarlo_brdf.cases.case import pointwise
+
+    drawn, _ = pointwise(model, one).sample(np.array(wo), _pilot())
+    above = np.isfinite(drawn).all(axis=1) & (drawn[:, 2] > 0.0)
+    return drawn[above], drawn[:PROBES][above[:PROBES]]
+
+
+@functools.cache
+def _pilot() -> Any:
+    import numpy as np
+
+    return np.random.default_rng(PILOT).random((PILOT, 3))
+
+
+def _probed_scale(model: Model, one: Any, wo: Any, centre: Any) -> float:
+    """The slope within which f cos has a tenth of its weight, from two lines through the mirror
+    direction of `centre`: what draws would tell if there were a sampler."""
+    import numpy as np
+
+    from montecarlo_brdf.cases.case import pointwise
+    from montecarlo_brdf.estimate.quadrature import Coordinates
+
+    finest = Coordinates(centre, SHARPEST)
+    x, b = (g.ravel() for g in np.meshgrid((np.arange(96) + 0.5) / 96, (0.2, 0.7), indexing="ij"))
+    wi, jacobian = finest.directions(x, b)
+    weight = np.abs(pointwise(model, one).f(wo, wi)) * wi[:, 2] * jacobian
+    share = np.cumsum(np.where(np.isfinite(weight), weight, 0.0))
+    if not share[-1] > 0.0:
+        return 1.0
+    k = int(np.searchsorted(share, 0.1 * share[-1]))
+    h = wi[k] + centre
+    return float(max(0.3 * np.hypot(h[0], h[1]) / h[2], SHARPEST))
+
+
+def _weight(p: Any, term: Any) -> float:
+    return float(getattr(p, f"{term.prefix}_weight"))
+
+
+def _sum(parts: list[tuple[float, Reference | None]]) -> Reference | None:
+    """The reference of a mixture: albedo is linear in f."""
+    known = [(w, r) for w, r in parts if r is not None]
+    if len(known) < len(parts):
+        return None
+    kinds = {r.kind for _, r in known}
+    return Reference(
+        math.fsum(w * r.value for w, r in known),
+        math.fsum(w * r.error for w, r in known) + 1e-15,
+        "closed form" if kinds == {"closed form"} else "independent",
+        " + ".join(dict.fromkeys(r.source for _, r in known)),
+    )

@@ -1,0 +1,108 @@
+"""From a Python function to an object file's bytes, by numba.
+
+Every kernel has one signature, `void kernel(int64*, double*, double*)`, and numba's native
+convention around it, whose returned status is not 0 when the function raised.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from montecarlo_brdf.compile import linking, native
+
+Function = Callable[..., Any]
+
+#: Reassociation is what lets a sum vectorise; `nnan` and `ninf` are left out on purpose: with them
+#: `isfinite(1/0)` is True and a NaN in a BRDF goes unseen.
+FASTMATH = ("afn", "arcp", "contract", "nsz", "reassoc")
+#: What an object may take from the process: the mathematics and memory functions of libc. Anything
+#: else (numba's run time, Python's own API) means that it must be run by numba itself.
+LIBC = frozenset([
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh",
+    "acosh", "atanh", "sincos", "exp", "exp2", "expm1", "log", "log2", "log10", "log1p", "pow",
+    "sqrt", "cbrt", "hypot", "erf", "erfc", "tgamma", "lgamma", "fabs", "floor", "ceil", "trunc",
+    "rint", "round", "nearbyint", "fmod", "fma", "fmax", "fmin", "ldexp", "frexp", "copysign",
+    "sinf", "cosf", "tanf", "expf", "exp2f", "logf", "log2f", "powf", "sqrtf", "fmodf", "atan2f",
+    "memcpy", "memset", "memmove",
+])  # fmt: skip
+#: How everything but the kernel itself is compiled: only ever called from other compiled code.
+INLINE = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+KERNEL = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+
+class NeedsRuntime(Exception):
+    """The compiled function calls into numba's or Python's run time."""
+
+
+def options(strict: bool = False) -> dict[str, Any]:
+    """Compile options; strict=True forbids every floating-point rewrite."""
+    return {"error_model": "numpy", "fastmath": False if strict else set(FASTMATH)}
+
+
+def compiled(function: Callable[..., Any], strict: bool = False) -> Any:
+    """`function` as a numba dispatcher with our options (and never numba's own file cache)."""
+    import numba
+
+    return numba.njit(**options(strict))(function)
+
+
+def part(function: Function) -> Any:
+    """A function that kernels are made of, as a dispatcher."""
+    return _jit(function, **INLINE, pipeline_class=linking.pipeline())
+
+
+def whole(function: Function) -> Any:
+    """The same for what numba runs itself."""
+    return _jit(function, **INLINE)
+
+
+def compile_function(function: Function) -> bytes:
+    """`function(ints, reals, out)`, specialised from parts, as an object file.
+
+    Raises NeedsRuntime if it needs more than libc, and numba's own errors if it does not compile.
+    """
+    return bytes(native.machine().emit_object(_module(function)))
+
+
+def assembly(function: Function) -> str:
+    """The same as assembly text, to look at the instructions of a loop."""
+    return str(native.machine().emit_assembly(_module(function)))
+
+
+def compile_in_process(function: Function) -> native.NativeKernel:
+    """`function`, specialised from whole functions, run by numba itself: for functions that need
+    its run time. Not cached."""
+    overload = _overload(function, **KERNEL)
+    address = overload.library.get_pointer_to_function(overload.fndesc.llvm_func_name)
+    return native.callable_at(address, overload)
+
+
+def _module(function: Function) -> Any:
+    """The LLVM module with nothing but the entry and what it needs of libc."""
+    overload = _overload(function, **KERNEL, pipeline_class=linking.pipeline())
+    module = linking.linked(overload.library, overload.fndesc.llvm_func_name, native.ENTRY)
+    missing = sorted(
+        f.name
+        for f in module.functions
+        if f.is_declaration and not f.name.startswith("llvm.") and f.name not in LIBC
+    )
+    if missing:
+        raise NeedsRuntime(", ".join(missing))
+    return module
+
+
+def _overload(function: Function, **options: Any) -> Any:
+    import numba
+
+    pointers = (numba.types.CPointer(numba.int64),) + (numba.types.CPointer(numba.float64),) * 2
+    dispatcher = _jit(function, numba.void(*pointers), **options)
+    (overload,) = dispatcher.overloads.values()
+    return overload
+
+
+def _jit(function: Function, *signature: Any, **more: Any) -> Any:
+    import numba
+
+    decorated: Any = numba.njit
+    return decorated(*signature, **more, **options())(function)

@@ -1,0 +1,129 @@
+"""Parameters as a flat row of doubles, and the way back to NamedTuples inside a kernel.
+
+K parameter sets (the channels of a colour) share the places of the numbers they have in common:
+the compiler then sees the same value once and computes what depends on it once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+
+class Layout(NamedTuple):
+    """Where each number of each channel stands; equal layouts share a kernel."""
+
+    shape: Any
+    places: tuple[tuple[int, ...], ...]  # per channel: the place of every number
+
+    def key(self) -> tuple[Any, ...]:
+        """What the compiled code depends on: names and places, never values."""
+        return _described(self.shape), self.places
+
+
+def shape_of(value: Any) -> Any:
+    """None for a number, (type, shapes of the fields) for a NamedTuple or tuple."""
+    if isinstance(value, tuple):
+        return type(value), tuple(shape_of(v) for v in value)
+    float(value)
+    return None
+
+
+def numbers_of(value: Any) -> Iterator[float]:
+    """All numbers of a nested tuple in order."""
+    if isinstance(value, tuple):
+        for field in value:
+            yield from numbers_of(field)
+    else:
+        yield float(value)
+
+
+def _described(shape: Any) -> Any:
+    if shape is None:
+        return None
+    kind, fields = shape
+    return kind.__name__, getattr(kind, "_fields", ()), tuple(map(_described, fields))
+
+
+def pack(channels: Sequence[Any], first: int) -> tuple[Layout, list[float]]:
+    """Layout and numbers of K parameter sets, the numbers starting at place `first`."""
+    numbers: list[float] = []
+    places: list[list[int]] = [[] for _ in channels]
+    for column in zip(*(numbers_of(p) for p in channels), strict=True):
+        shared = len(set(column)) == 1
+        for k, value in enumerate(column):
+            if k == 0 or not shared:
+                numbers.append(value)
+            places[k].append(first + len(numbers) - 1)
+    return Layout(shape_of(channels[0]), tuple(map(tuple, places))), numbers
+
+
+def following(shape: Any, first: int) -> Layout:
+    """The layout of one parameter set of a shape whose numbers start at place `first`."""
+    return Layout(shape, (tuple(range(first, first + _count(shape))),))
+
+
+def _count(shape: Any) -> int:
+    return 1 if shape is None else sum(_count(s) for s in shape[1])
+
+
+def unpacker(layout: Layout) -> Any:
+    """Intrinsic `unpack(reals)`: the K NamedTuples of a layout."""
+    import numba
+    from numba.extending import intrinsic
+
+    one = _numba_type(layout.shape)
+
+    @intrinsic
+    def unpack(typing: Any, reals: Any) -> Any:
+        result = numba.types.UniTuple(one, len(layout.places))
+
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            def number(place: int) -> Any:
+                index = context.get_constant(numba.types.intp, place)
+                return builder.load(builder.gep(args[0], [index]))
+
+            def made(shape: Any, places: Iterator[int]) -> Any:
+                if shape is None:
+                    return number(next(places))
+                fields = [made(s, places) for s in shape[1]]
+                return context.make_tuple(builder, _numba_type(shape), fields)
+
+            tuples = [made(layout.shape, iter(places)) for places in layout.places]
+            return context.make_tuple(builder, result, tuples)
+
+        return result(reals), generate
+
+    return unpack
+
+
+def _numba_type(shape: Any) -> Any:
+    """The numba type of a shape; a tuple of equal types is a uniform one, as numba would type
+    it."""
+    import numba
+
+    if shape is None:
+        return numba.float64
+    kind, fields = shape[0], [_numba_type(s) for s in shape[1]]
+    uniform = bool(fields) and all(t == fields[0] for t in fields)
+    if kind is tuple:
+        return (
+            numba.types.UniTuple(fields[0], len(fields)) if uniform else numba.types.Tuple(fields)
+        )
+    if uniform:
+        return numba.types.NamedUniTuple(fields[0], len(fields), kind)
+    return numba.types.NamedTuple(fields, kind)
+
+
+def place_row() -> Any:
+    """Intrinsic `row(reals, k)`: the numbers from place k on."""
+    from numba.extending import intrinsic
+
+    @intrinsic
+    def from_place(typing: Any, reals: Any, k: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            return builder.gep(args[0], [args[1]])
+
+        return reals(reals, k), generate
+
+    return from_place

@@ -1,0 +1,127 @@
+"""Estimators: a model, a direction and a sampler turned into an `Estimate`, never a bare float."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.estimate import adaptive, integrands
+from montecarlo_brdf.estimate.arguments import check_subject, check_theta
+from montecarlo_brdf.estimate.evaluate import estimates, evaluate
+from montecarlo_brdf.estimate.plan import REPLICATES, Plan
+from montecarlo_brdf.estimate.samplers import SAMPLERS, charts_of, integrand_name, samplers_of
+from montecarlo_brdf.estimate.subject import Subject
+from montecarlo_brdf.model import Model, NoParams
+from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.vectors import Vec, from_degrees
+
+
+def directional_albedo(
+    model: Model,
+    p: Any,
+    theta_o_deg: float | Sequence[float],
+    *,
+    phi_o_deg: float = 0.0,
+    sampler: str = "cosine",
+    points: str = "sobol",
+    samples: int = 1 << 16,
+    seed: int = 0,
+    replicates: int = REPLICATES,
+    threads: int = 1,
+    target_error: float | None = None,
+    method: str | None = None,
+) -> Any:
+    """Directional albedo A(wo) = int f cos(theta_i) dwi, with its error bar.
+
+    theta_o_deg, phi_o_deg: direction of the viewer in degrees, theta in [0, 90).
+    sampler: "uniform", "cosine", "own" or a chart that fits the model ("half_vector", "mirror",
+    "panels"); points: "independent", "stratified", "sobol" or "lattice"; samples: the total over
+    all replicates. target_error: take as many samples as needed until the 99 % half-width is below
+    this relative error, and choose sampler and points (method "auto", told in the estimate's
+    `method`; "given" keeps sampler and points). method "auto" alone chooses for `samples`.
+    Returns an Estimate; a list of one per channel for a colour; for a list of angles or of
+    parameter sets a list of that. Raises UserError for a bad value, ModelError if the model does
+    not compile or raises.
+    """
+    if isinstance(p, list) or isinstance(theta_o_deg, (list, tuple)):
+        rest = {k: v for k, v in locals().items() if k not in ("model", "p", "theta_o_deg")}
+        return _each(directional_albedo, model, p, theta_o_deg, rest)
+    check_subject(model, p)
+    chosen = method or ("given" if target_error is None else "auto")
+    plan = Plan(points, samples, replicates, seed, threads, None, target_error, chosen)
+    wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
+    if target_error is None and chosen == "given":
+        return _one(model, p, "albedo", wo, sampler, plan)
+    found, _ = adaptive.albedo(model, p, wo, plan, sampler)
+    return found[0] if len(found) == 1 else found
+
+
+def _each(function: Any, model: Model, p: Any, angles: Any, rest: dict[str, Any]) -> list[Any]:
+    """One result per parameter set, angle, or both (nested)."""
+    if isinstance(p, list):
+        return [function(model, one, angles, **rest) for one in p]
+    return [function(model, p, angle, **rest) for angle in angles]
+
+
+def reverse_albedo(
+    model: Model,
+    p: Any,
+    theta_i_deg: float,
+    *,
+    phi_i_deg: float = 0.0,
+    sampler: str = "cosine",
+    points: str = "sobol",
+    samples: int = 1 << 16,
+    seed: int = 0,
+    replicates: int = REPLICATES,
+    threads: int = 1,
+) -> Any:
+    """Reverse albedo R(wi) = int f cos(theta_o) dwo: all the light that leaves, for light from wi.
+
+    This is what energy conservation bounds by 1; it equals A only if f is reciprocal. Arguments and
+    result as for `directional_albedo`.
+    """
+    check_subject(model, p)
+    plan = Plan(points, samples, replicates, seed, threads)
+    wi = from_degrees(check_theta(theta_i_deg, "theta_i_deg"), phi_i_deg)
+    return _one(model, p, "reverse", wi, sampler, plan)
+
+
+def bihemispherical_albedo(
+    model: Model,
+    p: Any,
+    *,
+    sampler: str = "cosine",
+    points: str = "sobol",
+    samples: int = 1 << 16,
+    seed: int = 0,
+    replicates: int = REPLICATES,
+    threads: int = 1,
+) -> Any:
+    """Radiosity over irradiance under uniform light, 2 int A(mu) mu dmu, between 0 and 1."""
+    check_subject(model, p)
+    plan = Plan(points, samples, replicates, seed, threads)
+    return _one(model, p, "bihemispherical", (0.0, 0.0, 1.0), sampler, plan)
+
+
+def _one(model: Model, p: Any, quantity: str, fixed: Vec, sampler: str, plan: Plan) -> Any:
+    model = model.of(p)
+    offered = (*samplers_of(model, quantity), *charts_of(model))
+    if sampler not in offered:
+        raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
+    names = [integrand_name(model, quantity, sampler)]
+    rows = estimates(model, p, fixed, names, plan, (quantity, sampler))
+    return rows[0][0] if len(rows) == 1 else [row[0] for row in rows]
+
+
+def hemisphere_integral(
+    function: Any, p: Any = NoParams(), *, sampler: str = "uniform", plan: Plan = Plan()
+) -> Estimate:
+    """The integral of function(w, p) over the hemisphere, per solid angle, by uniform or cosine
+    sampling."""
+    if sampler not in SAMPLERS[:2]:
+        raise UserError(unknown("sampler", sampler, SAMPLERS[:2]))
+    subject = Subject((function.__qualname__, *map(repr, p)), {"F": function}, [p])
+    kind = integrands.hemisphere_uniform if sampler == "uniform" else integrands.hemisphere_cosine
+    return evaluate(subject, (0.0, 0.0, 1.0), [kind], plan, ("hemisphere", sampler))[0][0]

@@ -1,0 +1,79 @@
+"""Integrands evaluated for a subject by a plan: kernels compiled, run, and their sums judged."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from montecarlo_brdf.compile.kernel import compiled
+from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.estimate import moments, work
+from montecarlo_brdf.estimate.arguments import check_samples
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.recipe import Recipe
+from montecarlo_brdf.estimate.samplers import integrand, query, suited_to
+from montecarlo_brdf.estimate.subject import Subject, subject_of
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
+from montecarlo_brdf.sampling.streams import stream
+from montecarlo_brdf.statistics import Estimate, estimate
+from montecarlo_brdf.vectors import Vec
+
+
+def estimates(
+    model: Model, p: Any, fixed: Vec, names: Sequence[str], plan: Plan, label: tuple[Any, ...]
+) -> list[list[Estimate]]:
+    """Estimates of several integrands on the same points: result[channel][integrand]."""
+    functions = [integrand(n) for n in names]
+    return evaluate(subject_of(model, p), query(model, p, fixed), functions, plan, label)
+
+
+def evaluate(
+    subject: Subject,
+    fixed: Sequence[float],
+    functions: Sequence[Any],
+    plan: Plan,
+    label: tuple[Any, ...],
+    common: bool = False,
+) -> list[list[Estimate]]:
+    """The same for any functions bound into integrands; `label` names the stream with the subject.
+
+    common: the same random numbers for every direction, so that what is searched is smooth.
+    """
+    check_samples(plan.samples)
+    if plan.points not in SETS:
+        raise UserError(unknown("point set", plan.points, SETS))
+    replicates = max(1, min(plan.replicates, plan.samples))
+    per_replicate = _per_replicate(plan, replicates)
+    place = () if common else fixed
+    key = stream(plan.seed, plan.points, *subject.identity, *label, *place)
+    rows = []
+    for group in _groups(subject.sets, len(functions)):
+        layout, numbers = pack(group, moments.QUERY)
+        suited = tuple(suited_to(plan.points, f) for f in functions)
+        recipe = Recipe(plan.points, suited, subject.functions, layout)
+        entry = compiled(subject.identity[0], recipe)
+        width = len(group) * len(functions)
+        reals = (*(*fixed, 0.0)[: moments.QUERY], *numbers)
+        shape = SHAPES[plan.points](per_replicate) if plan.points in SHAPES else NONE
+        job = work.Job(entry, reals, width, key, replicates, per_replicate, shape)
+        results = [estimate(m) for m in work.run(job, plan.threads, plan.progress, plan.sums)]
+        rows += [results[i : i + len(functions)] for i in range(0, width, len(functions))]
+    return rows
+
+
+def _groups(sets: list[Any], width: int) -> list[list[Any]]:
+    """Channels that share a kernel: as many as fit a small stack."""
+    size = max(1, 16 // width)
+    return [sets[i : i + size] for i in range(0, len(sets), size)]
+
+
+def _per_replicate(plan: Plan, replicates: int) -> int:
+    """Samples in each replicate, rounded up to what the point set needs."""
+    each = -(-plan.samples // replicates)
+    most, power_of_two = SETS[plan.points]
+    each = 1 << (each - 1).bit_length() if power_of_two else each
+    if each > most:
+        raise UserError(f"{plan.points} points allow {most} samples per replicate, not {each}")
+    return each
