@@ -11,7 +11,8 @@ Conventions (one place for all of them):
     angles        a name says _deg or it is in radians
     A(wo)         directional albedo, int f cos(theta_i) dwi; R(wi) = int f cos(theta_o) dwo
 
-Reading order: vectors, compile, sampling, model, estimate, cases, judge, checks, report, verify, cli.
+Reading order: vectors, compile, sampling, model, estimate, cases, judge, checks, verify, report,
+cli.
 """
 from __future__ import annotations
 

@@ -11,14 +11,26 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError, unknown
 
 Function = Callable[..., Any]
 
-#: What a model may disclaim: a claim of physics that the published model never made.
-PROPERTIES = ("energy", "reciprocity", "positivity", "isotropy", "reference", "pdf")
+
+class Property(StrEnum):
+    """What a model may disclaim: a claim of physics that the published model never made."""
+
+    ENERGY = "energy"
+    RECIPROCITY = "reciprocity"
+    POSITIVITY = "positivity"
+    ISOTROPY = "isotropy"
+    REFERENCE = "reference"
+    PDF = "pdf"
+
+
+PROPERTIES = tuple(Property)
 
 
 class NoParams(NamedTuple):

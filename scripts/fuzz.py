@@ -2,7 +2,7 @@
 
     python scripts/fuzz.py [--minutes 60] [--record scripts/results/fuzz.json]
 
-Draws from tests/robustness. Each case runs in a child of this warm process, in an empty folder. It
+Draws from tests/cli. Each case runs in a child of this warm process, in an empty folder. It
 fails if it ends in anything but an answer or one sentence (a traceback, a signal, exit code 70),
 takes 20 s of processor time or sleeps for a minute, leaves a half-written file, or loses the
 report it was asked for. With --record the hour goes on where it stopped; failures are kept with
@@ -34,7 +34,7 @@ from montecarlo_brdf.cli import execute
 from montecarlo_brdf.files import write_text
 
 ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "robustness"))
+sys.path.insert(0, str(ROOT / "tests" / "cli"))
 PROCESSOR_SECONDS, IDLE, TICK = 20, 120, 0.5
 RAISED = 99
 #: What warms this process, so that a child finds imported and loaded what nearly all need.

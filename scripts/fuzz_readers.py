@@ -109,7 +109,7 @@ def seeds() -> None:
     import numpy as np
     from PIL import Image
 
-    sys.path.insert(0, str(ROOT / "tests" / "robustness"))
+    sys.path.insert(0, str(ROOT / "tests" / "cli"))
     import fuzzed_files
 
     READERS["settings"][1].extend(s.encode() for s in fuzzed_files.SETTINGS)

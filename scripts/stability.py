@@ -96,7 +96,7 @@ FUZZING = """## Fuzzing
 
 By scripts/fuzz.py (command lines, and files that a command then reads) and scripts/fuzz_readers.py
 (coverage-guided, the readers alone), on a machine busy with other work. What the first run found
-is cured in the later ones, with tests in tests/robustness, but for two cases that "did not end"
+is cured in the later ones, with tests in tests/cli, but for two cases that "did not end"
 within 3 minutes: they take 6 and 16 s of processor time to compile, and the limit counts that
 since. scripts/results/fuzz_models.txt has 10^7 evaluations of every model it names.
 

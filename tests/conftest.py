@@ -28,10 +28,11 @@ class Outcome(NamedTuple):
 
 @pytest.fixture(scope="session", autouse=True)
 def kernel_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """An empty cache: a test session depends on nothing that was compiled before it."""
+    """An empty cache: a test session depends on nothing that was compiled before it, unless
+    $BRDF_CHECK_TEST_CACHE names a folder that keeps kernels from one session to the next."""
     root = tmp_path_factory.getbasetemp()
     shared = root.parent if os.environ.get("PYTEST_XDIST_WORKER") else root  # by all workers
-    folder = shared / "kernels"
+    folder = Path(os.environ.get("BRDF_CHECK_TEST_CACHE", shared / "kernels"))
     folder.mkdir(exist_ok=True)
     os.environ["BRDF_CHECK_CACHE_DIR"] = str(folder)
     return folder

@@ -12,7 +12,7 @@ from typing import Any
 import click
 import pytest
 from conftest import Outcome
-from test_user_models import EXACT
+from test_model_file import EXACT
 
 from montecarlo_brdf.cli import commands
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.estimate.plan import Plan
@@ -12,6 +13,20 @@ from montecarlo_brdf.estimate.trust import Measurement
 #: Tolerances are stated, not discovered (design: the verdict is the product).
 BOUND_TOLERANCE = 1e-5  # absolute, for "at most 1"
 AGREEMENT_TOLERANCE = 1e-4  # relative, for "equals its reference"
+
+
+class Kind(StrEnum):
+    """Where an expected value is from."""
+
+    BOUND = "bound"
+    LAW = "law"
+    CLOSED_FORM = "closed form"
+    QUADRATURE = "quadrature"  # of a formula of our own
+    INDEPENDENT = "independent"  # a sum of several kinds
+    DECLARED = "declared"
+    OTHER_MODEL = "other model"
+    SAME_F = "quadrature of the same f"  # says nothing about f itself
+    ADAPTIVE = "adaptive estimate of the same f"
 
 
 class Reference(NamedTuple):

@@ -7,12 +7,41 @@ import math
 import platform
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Any
 
 SCHEMA = 1
+
+
+class Verdict(StrEnum):
+    """What became of a claim."""
+
+    ERROR = "error"  # the model could not be run
+    FAIL = "fail"
+    INCONCLUSIVE = "inconclusive"
+    PASS = "pass"
+    KNOWN = "known"  # refuted, and disclaimed by the model
+    SKIPPED = "skipped"
+
+
+class Bound(StrEnum):
+    """How a number is held against what is expected."""
+
+    AT_MOST = "at most"
+    AT_LEAST = "at least"
+    EQUAL = "equal"
+
+
 #: The worst comes first; a run is as bad as its worst finding, and "known" never fails it.
-SEVERITY = ("error", "fail", "inconclusive", "pass", "known", "skipped")
-EXIT_CODES = {"pass": 0, "known": 0, "skipped": 0, "fail": 1, "inconclusive": 3, "error": 4}
+SEVERITY = tuple(Verdict)
+EXIT_CODES = {
+    Verdict.PASS: 0,
+    Verdict.KNOWN: 0,
+    Verdict.SKIPPED: 0,
+    Verdict.FAIL: 1,
+    Verdict.INCONCLUSIVE: 3,
+    Verdict.ERROR: 4,
+}
 
 
 @dataclass(frozen=True)
@@ -73,7 +102,7 @@ class Report:
     @property
     def exit_code(self) -> int:
         """0 all claims held, 1 one was refuted, 3 inconclusive, 4 the model could not be run."""
-        return EXIT_CODES[self.verdict]
+        return EXIT_CODES[Verdict(self.verdict)]
 
     @property
     def level(self) -> float:

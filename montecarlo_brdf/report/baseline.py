@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.judge.finding import EXIT_CODES, SEVERITY
+from montecarlo_brdf.judge.finding import EXIT_CODES, SEVERITY, Verdict
 
 #: kinds of change, in the order in which they are told; the first two decide the exit code
 KINDS = ("new failure", "newly undecided", "fixed", "changed", "new", "gone")
@@ -42,7 +42,7 @@ def changes(now: dict[str, Any], before: dict[str, Any]) -> list[Change]:
 def exit_code(found: list[Change]) -> int:
     """As bad as the worst verdict that is new: 4, 1, 3, or 0 if nothing got worse."""
     worse = [c.now or "" for c in found if c.kind in KINDS[:2]]
-    return EXIT_CODES[min(worse, key=SEVERITY.index)] if worse else 0
+    return EXIT_CODES[Verdict(min(worse, key=SEVERITY.index))] if worse else 0
 
 
 Row = tuple[tuple[Any, ...], str, str]  # what it is about, its place, its verdict

@@ -16,7 +16,7 @@ from montecarlo_brdf.estimate.quadrature import Coordinates, integrate
 from montecarlo_brdf.statistics import Moments, estimate
 from montecarlo_brdf.vectors import from_degrees
 
-TESTS = Path(__file__).parent
+TESTS = Path(__file__).parents[1]
 
 
 def case(name: str) -> Case:

@@ -10,7 +10,7 @@ from montecarlo_brdf import testing
 from montecarlo_brdf.cli import _project, commands
 from montecarlo_brdf.report import formats
 
-PAGE = (Path(__file__).parents[2] / "docs" / "ci.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[1] / "docs" / "ci.md").read_text(encoding="utf-8")
 MINE = """\
 from typing import NamedTuple
 class Params(NamedTuple):
