@@ -7,8 +7,8 @@ With x^2 = a exponent of the distribution:
 
 Beckmann's falls from alpha sin/(2 sqrt(pi)) like a Gaussian, and its eighth root so slowly that a
 polynomial has all of it. Blinn-Phong's R is exp(x^2) times a regularised incomplete beta function
-(formulas.md, section 6); in x it is as smooth as exp(x^2) erfc(x), for every n, and a short
-Chebyshev series has all its digits.
+(the integral of Heitz 2014, eq. 72); in x it is as smooth as exp(x^2) erfc(x), for every n, and a
+short Chebyshev series has all its digits.
 """
 from __future__ import annotations
 
