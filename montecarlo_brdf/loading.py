@@ -50,35 +50,8 @@ def load(spec: str, **picks: str) -> Model:
         namespace = vars(importlib.import_module(f"montecarlo_brdf.models.{spec}"))
     else:
         raise UserError(unknown("model", spec, names()) + ", or give the path of a .py file")
-    _check_declared(spec, namespace)
     model = build(spec, namespace, {}, built_in=spec in names())
     return model.variant(**picks) if picks else model
-
-
-#: What a model file may declare, and of what type.
-DECLARED: dict[str, Any] = {
-    "domain": Mapping, "choices": Mapping, "disclaims": Mapping, "verified": (list, tuple),
-    "kinks": (list, tuple), "same_as": str, "scales_with": str,
-}  # fmt: skip
-CALLED = {Mapping: "a dictionary", str: "a name", (list, tuple): "a list"}
-
-
-def _check_declared(spec: str, namespace: Mapping[str, Any]) -> None:
-    """Raise ModelError for a declaration that cannot mean anything."""
-    for name, kind in DECLARED.items():
-        value = namespace.get(name)
-        if value is not None and not isinstance(value, kind):
-            raise ModelError(f"{name} of model {spec} must be {CALLED[kind]}, not {value!r}")
-    params = namespace.get("Params")
-    if params is not None and not hasattr(params, "_fields"):
-        raise ModelError(f"Params of model {spec} must be a NamedTuple of numbers")
-    for name, options in (namespace.get("choices") or {}).items():
-        if not isinstance(options, Mapping) or not options:
-            raise ModelError(f"choices of model {spec} needs a dictionary of options for {name}")
-    for name, ends in (namespace.get("domain") or {}).items():
-        pair = isinstance(ends, list | tuple) and len(ends) == 2
-        if not pair or not all(isinstance(e, int | float) for e in ends):
-            raise ModelError(f"domain of model {spec} must give (low, high) for {name}")
 
 
 def _from_file(path: Path) -> types.ModuleType:

@@ -14,8 +14,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.model import Model
-from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine, random_hemisphere_cosine
+from montecarlo_brdf.model import Model, ParameterSet, Prepared, Term, parameter_type
+from montecarlo_brdf.models._cosine import sample as cosine_sample
+from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine
+from montecarlo_brdf.vectors import Vec
 
 Function = Callable[..., Any]
 
@@ -23,27 +25,11 @@ FIRST: Any = None  # bound to the functions of one term
 REST: Any = None  # and to the mixture of the terms after it
 
 
-class Term(NamedTuple):
-    """One model of a mixture; its parameters are the mixture's fields that start with `prefix`."""
-
-    prefix: str
-    model: Model
-    weight: float
-
-    def parameters_of(self, p: Any) -> Any:
-        """The term's own parameter set within the mixture's."""
-        return self.model.Params(*(getattr(p, f) for f in self.fields()))
-
-    def fields(self) -> list[str]:
-        """The mixture's fields that are this term's parameters, in its own order."""
-        return [f"{self.prefix}_{n}" for n in self.model.Params._fields]  # type: ignore[attr-defined]
-
-
 class Last(NamedTuple):
     """Prepared parameters of the last term."""
 
     weight: float
-    first: Any
+    first: Prepared
 
 
 class Node(NamedTuple):
@@ -51,21 +37,21 @@ class Node(NamedTuple):
 
     weight: float
     choose: float
-    first: Any
-    rest: Any
+    first: Prepared
+    rest: Last | Node
 
 
-def f(wo: Any, wi: Any, p: Any) -> float:
+def f(wo: Vec, wi: Vec, p: Node) -> float:
     """weight f_1 + the rest."""
     return p.weight * FIRST(wo, wi, p.first) + REST(wo, wi, p.rest)
 
 
-def f_last(wo: Any, wi: Any, p: Any) -> float:
+def f_last(wo: Vec, wi: Vec, p: Last) -> float:
     """weight f_n."""
     return p.weight * FIRST(wo, wi, p.first)
 
 
-def sample(wo: Any, u: Any, p: Any) -> Any:
+def sample(wo: Vec, u: Vec, p: Node) -> Vec:
     """This term with probability `choose`, else one after it; u[2] is stretched to be used
     again."""
     if u[2] < p.choose:
@@ -74,28 +60,23 @@ def sample(wo: Any, u: Any, p: Any) -> Any:
     return REST(wo, (u[0], u[1], (u[2] - p.choose) / (1.0 - p.choose)), p.rest)
 
 
-def sample_last(wo: Any, u: Any, p: Any) -> Any:
+def sample_last(wo: Vec, u: Vec, p: Last) -> Vec:
     """The last term."""
     w = FIRST(wo, u, p.first)
     return w[0], w[1], w[2]
 
 
-def pdf(wo: Any, wi: Any, p: Any) -> float:
+def pdf(wo: Vec, wi: Vec, p: Node) -> float:
     """The density of the whole mixture."""
     return p.choose * FIRST(wo, wi, p.first) + (1.0 - p.choose) * REST(wo, wi, p.rest)
 
 
-def pdf_last(wo: Any, wi: Any, p: Any) -> float:
+def pdf_last(wo: Vec, wi: Vec, p: Last) -> float:
     """The density of the last term."""
     return FIRST(wo, wi, p.first)
 
 
-def cosine_sample(wo: Any, u: Any, p: Any) -> Any:
-    """For a term without a sampler."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def cosine_pdf(wo: Any, wi: Any, p: Any) -> float:
+def cosine_pdf(wo: Vec, wi: Vec, p: Prepared) -> float:
     """For a term without a sampler."""
     return pdf_hemisphere_cosine(wi)
 
@@ -192,15 +173,11 @@ def _labels(terms: tuple[Term, ...]) -> dict[str, str]:
     return labels
 
 
-def _params(terms: tuple[Term, ...], picks: Mapping[str, str]) -> type:
+def _params(terms: tuple[Term, ...], picks: Mapping[str, str]) -> type[ParameterSet]:
     defaults = {f"{t.prefix}_weight": t.weight for t in terms}
     for t in terms:
         defaults |= dict(zip(t.fields(), t.model.parameters(), strict=True))
-    made = NamedTuple("Params", [(name, float) for name in defaults])  # type: ignore[misc]
-    made.__new__.__defaults__ = tuple(defaults.values())
-    made._field_defaults = defaults
-    made.picks = dict(picks)  # type: ignore[attr-defined]
-    return made
+    return parameter_type(defaults, defaults, picks)
 
 
 def _domain(terms: tuple[Term, ...]) -> dict[str, tuple[float, float]]:
@@ -210,11 +187,11 @@ def _domain(terms: tuple[Term, ...]) -> dict[str, tuple[float, float]]:
     return domain
 
 
-def _prepared(terms: tuple[Term, ...], p: Any) -> Any:
+def _prepared(terms: tuple[Term, ...], p: ParameterSet) -> Last | Node:
     """The chain of prepared parameters, built from its end."""
     weights = [getattr(p, f"{t.prefix}_weight") for t in terms]
     ready = [t.model.prepared(t.parameters_of(p)) for t in terms]
-    chain: Any = Last(weights[-1], ready[-1])
+    chain: Last | Node = Last(weights[-1], ready[-1])
     total = weights[-1]
     for weight, first in zip(reversed(weights[:-1]), reversed(ready[:-1]), strict=True):
         total += weight

@@ -58,6 +58,6 @@ def suited_to(points: str, function: Any) -> Any:
 
 def query(model: Model, p: Any, fixed: Vec) -> tuple[float, ...]:
     """What integrands get as `fixed`: the given direction and the width of the narrowest lobe."""
-    if not lobe_kind(model):
+    if model.lobe is None or not lobe_kind(model):
         return (*fixed, 0.0)
-    return (*fixed, min(float(model.lobe[1](one)) for one in channels(p)))
+    return (*fixed, min(float(model.lobe.width(one)) for one in channels(p)))

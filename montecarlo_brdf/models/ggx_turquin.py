@@ -33,5 +33,6 @@ def prepare(p: Params) -> Table:
 
 def f(wo: Vec, wi: Vec, p: Table) -> float:
     """One reflection, scaled."""
+    once = single(wo, wi, p)
     missing = lost(wo[2], p)
-    return single(wo, wi, p) * (1.0 + p.f0 * missing / (1.0 - missing))
+    return once * (1.0 + p.f0 * missing / (1.0 - missing))

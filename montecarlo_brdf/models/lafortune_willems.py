@@ -38,12 +38,15 @@ def share(p: Params) -> float:
 
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """kd/pi + ks (n+2)/(2 pi) (r.v)^n."""
-    return p.kd / math.pi + phong.f(wo, wi, p)
+    shine = phong.f(wo, wi, p)
+    return p.kd / math.pi + shine
 
 
 def sample(wo: Vec, u: Vec, p: Params) -> Vec:
     """One of the two, chosen by u[2]."""
-    return phong.sample(wo, u, p) if u[2] < share(p) else random_hemisphere_cosine(u[0], u[1])
+    if u[2] < share(p):
+        return phong.sample(wo, u, p)
+    return random_hemisphere_cosine(u[0], u[1])
 
 
 def pdf(wo: Vec, wi: Vec, p: Params) -> float:
