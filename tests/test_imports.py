@@ -20,7 +20,7 @@ FLOW = (
     ("sampling",),
     ("loading", "mixture", "model", "model_file", "models"),
     ("estimate",),
-    ("cases",),
+    ("cases", "truth"),
     ("judge",),
     ("bench", "checks"),
     ("scene", "stability"),
@@ -34,7 +34,7 @@ FLOW = (
 RANK = {part: rank for rank, row in enumerate(FLOW) for part in row}
 #: Imported by those who compare with the truth, and importing nothing of the package.
 REFERENCES = "references"
-COMPARE = ("bench", "checks", "report", "scene")
+COMPARE = ("bench", "checks", "report", "scene", "truth")
 #: What a model may use: a user's own file has exactly the form of a built-in one.
 FOR_MODELS = {"bits", "models", "sampling.warps", "special", "vectors"}
 #: package -> where it may be imported

@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from conftest import Outcome
 
-from montecarlo_brdf import references
-from montecarlo_brdf.checks import _remembered
+from montecarlo_brdf import references, truth
 from montecarlo_brdf.compile import cache
+from montecarlo_brdf.truth import true_albedo
 
 GIVEN = {"alpha": 0.3, "f0": 0.04}
 COMMAND = ["furnace", "--model", "ggx", "-p", "alpha=0.37", "-p", "f0=0.5", "--theta-o", "0,80"]
@@ -29,7 +29,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def forget() -> None:
-    for known in (_remembered._values, _remembered._file, _remembered._dependencies):
+    for known in (truth._values, truth._file, truth._dependencies):
         known.cache_clear()
 
 
@@ -38,29 +38,29 @@ def refuse(*_: Any, **__: Any) -> Any:
 
 
 def test_what_was_asked_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    first = _remembered.albedo("ggx", 0.5, **GIVEN)
+    first = true_albedo("ggx", 0.5, **GIVEN)
     assert first == references.albedo("ggx", 0.5, **GIVEN)
     forget()
     monkeypatch.setattr(references, "albedo", refuse)
-    assert _remembered.albedo("ggx", 0.5, **GIVEN) == first
+    assert true_albedo("ggx", 0.5, **GIVEN) == first
     for other in ({"mu": 0.5000001}, {"alpha": 0.31}, {"f0": 0.041}):
         mu, given = other.pop("mu", 0.5), {**GIVEN, **other}
         with pytest.raises(AssertionError, match="computed again"):
-            _remembered.albedo("ggx", mu, **given)
+            true_albedo("ggx", mu, **given)
     with pytest.raises(AssertionError, match="computed again"):
-        _remembered.albedo("beckmann", 0.5, **GIVEN)
+        true_albedo("beckmann", 0.5, **GIVEN)
 
 
 def test_closed_forms_are_not_written(folder: Path) -> None:
-    assert _remembered.albedo("lambert", 0.5, albedo=0.8) == references.albedo(
+    assert true_albedo("lambert", 0.5, albedo=0.8) == references.albedo(
         "lambert", 0.5, albedo=0.8
     )
-    assert _remembered.albedo("no_such_model", 0.5) is None and not any(folder.iterdir())
+    assert true_albedo("no_such_model", 0.5) is None and not any(folder.iterdir())
 
 
 @pytest.mark.parametrize("damage", ["half", "one digit", "other"])
 def test_a_damaged_line_counts_as_absent(damage: str, folder: Path) -> None:
-    truth = [_remembered.albedo("ggx", mu, **GIVEN) for mu in (0.2, 0.5)]
+    values = [true_albedo("ggx", mu, **GIVEN) for mu in (0.2, 0.5)]
     (file,) = folder.glob("*.txt")
     first, second = file.read_bytes().splitlines(keepends=True)
     half, flipped = first[:70], first.replace(b"0.04", b"0.05")
@@ -68,20 +68,20 @@ def test_a_damaged_line_counts_as_absent(damage: str, folder: Path) -> None:
     forget()
     left = cache.notes(file.stem)
     assert len(left) == (0 if damage == "half" else 1)  # a torn line takes the next with it
-    assert [_remembered.albedo("ggx", mu, **GIVEN) for mu in (0.2, 0.5)] == truth
+    assert [true_albedo("ggx", mu, **GIVEN) for mu in (0.2, 0.5)] == values
 
 
 def test_an_edit_of_a_reference_shows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    before, sources = _remembered._file("ggx"), tmp_path / "references"
+    before, sources = truth._file("ggx"), tmp_path / "references"
     sources.mkdir()
     for path in Path(str(references.__file__)).parent.glob("*.py"):
         (sources / path.name).write_bytes(path.read_bytes())
     monkeypatch.setattr(references, "__file__", str(sources / "__init__.py"))
     forget()
-    assert _remembered._file("ggx") == before
+    assert truth._file("ggx") == before
     (sources / "_ggx.py").write_bytes((sources / "_ggx.py").read_bytes().replace(b"4.0", b"4.1"))
     forget()
-    assert _remembered._file("ggx") != before
+    assert truth._file("ggx") != before
 
 
 def test_notes_do_not_grow_for_ever(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""True albedos by our references; those that take a quadrature are remembered on disk.
+"""True albedos by our references; those that take a quadrature stay on disk.
 
 A quadrature takes a millisecond, but numpy, which it needs, a quarter of a warm run to import. The
 values of a model lie in a file that is named by the hash of everything they depend on, so that
@@ -10,15 +10,18 @@ import functools
 import hashlib
 import json
 from pathlib import Path
-from typing import Any
 
 from montecarlo_brdf import references
 from montecarlo_brdf.compile import cache, native
 from montecarlo_brdf.references import Truth
 
 
-def albedo(name: str, mu_o: float, /, **parameters: Any) -> Truth | None:
-    """A(theta_o) by `references.albedo`, or as it was when it was last asked for."""
+def true_albedo(name: str, mu_o: float, /, **parameters: float | str) -> Truth | None:
+    """A(theta_o) by `references.albedo`, or as it was when it was last asked for.
+
+    name: a built-in model; mu_o: cos(theta_o), above 0; its parameters, picks and, for a model that
+    is not isotropic, phi_o in radians. None if no reference tells.
+    """
     question = repr((mu_o, sorted(parameters.items())))
     values = _values(_file(name))
     if question not in values:
