@@ -64,7 +64,7 @@ def _from_file(path: Path) -> types.ModuleType:
     module = types.ModuleType(path.stem)
     module.__file__ = str(path)
     try:
-        with _no_bytecode(), _known(module):
+        with _running(module):
             exec(_compiled(path), vars(module))  # noqa: S102
     except SyntaxError as error:
         raise ModelError(f"{path}, line {error.lineno or 1}: {error.msg}") from error
@@ -74,12 +74,16 @@ def _from_file(path: Path) -> types.ModuleType:
 
 
 @contextlib.contextmanager
-def _known(module: types.ModuleType) -> Iterator[None]:
-    """A module under its name while it runs, as dataclasses expect, unless another has the name."""
+def _running(module: types.ModuleType) -> Iterator[None]:
+    """While a module runs, it is known by its name, as dataclasses expect, unless another is; and
+    modules of the user's are read from their source: Python's own cache of them looks at seconds
+    and sizes, and misses an edit from 2.0 to 3.0 within the same second."""
     mine = sys.modules.setdefault(module.__name__, module) is module
+    before, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
         yield
     finally:
+        sys.dont_write_bytecode = before
         if mine:
             sys.modules.pop(module.__name__, None)
 
@@ -89,18 +93,6 @@ def _compiled(path: Path) -> types.CodeType:
         return compile(path.read_bytes(), str(path), "exec")
     except ValueError as error:  # what a null byte raises before Python 3.11.4
         raise SyntaxError(str(error)) from error
-
-
-@contextlib.contextmanager
-def _no_bytecode() -> Iterator[None]:
-    """Modules of the user's are read from their source: Python's own cache of them looks at
-    seconds and sizes, and misses an edit from 2.0 to 3.0 within the same second."""
-    before = sys.dont_write_bytecode
-    sys.dont_write_bytecode = True
-    try:
-        yield
-    finally:
-        sys.dont_write_bytecode = before
 
 
 def _member(spec: str, namespace: Mapping[str, Any], name: str) -> Mapping[str, Any]:

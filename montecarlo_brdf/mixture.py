@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 import types
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
@@ -18,8 +18,6 @@ from montecarlo_brdf.model import Model, ParameterSet, Prepared, Term, parameter
 from montecarlo_brdf.models._cosine import sample as cosine_sample
 from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
-
-Function = Callable[..., Any]
 
 FIRST: Any = None  # bound to the functions of one term
 REST: Any = None  # and to the mixture of the terms after it
@@ -124,22 +122,24 @@ def _named(terms: Sequence[tuple[float, Model]]) -> tuple[Term, ...]:
 def _assembled(terms: tuple[Term, ...], name: str) -> Model:
     choices = {f"{t.prefix}.{c}": options for t in terms for c, options in t.model.choices.items()}
     picks = {f"{t.prefix}.{c}": pick for t in terms for c, pick in t.model.picks.items()}
+    parameters = list(_parameters(terms))
+    defaults = {field: default for field, _, default, _ in parameters}
     samplers = [(t.model.sample, t.model.pdf) if t.model.pdf else (None, None) for t in terms]
     return Model(
         name=name,
         doc=f"{name}: a mixture, f = "
         + " + ".join(f"{t.prefix}.weight f_{t.prefix}" for t in terms),
         f=_chain([t.model.f for t in terms], f, f_last),
-        Params=_params(terms, picks),
+        Params=parameter_type(defaults, defaults, picks),
         sample=_chain([s or cosine_sample for s, _ in samplers], sample, sample_last),
         pdf=_chain([d or cosine_pdf for _, d in samplers], pdf, pdf_last),
         prepare=lambda p: _prepared(terms, p),
-        domain=_domain(terms),
+        domain={field: ends for field, _, _, ends in parameters if ends},
         choices=choices,
         disclaims={k: f"{t.prefix}: {v}" for t in terms for k, v in t.model.disclaims.items()},
         isotropic=all(t.model.isotropic for t in terms),
         picks=picks,
-        labels=_labels(terms),
+        labels={field: name for field, name, _, _ in parameters},
         terms=terms,
         rebuild=lambda new: _assembled(_varied(terms, new), name),
     )
@@ -166,25 +166,13 @@ def _bound(template: Any, **names: Any) -> Any:
     return types.FunctionType(template.__code__, {**globals(), **names}, template.__name__)
 
 
-def _labels(terms: tuple[Term, ...]) -> dict[str, str]:
-    labels = {f"{t.prefix}_weight": f"{t.prefix}.weight" for t in terms}
+def _parameters(terms: tuple[Term, ...]) -> Iterator[tuple[str, str, float, Any]]:
+    """(field, name, default, range or None) of the weights, then of each term's parameters."""
     for t in terms:
-        labels |= {f: f"{t.prefix}.{f.removeprefix(t.prefix + '_')}" for f in t.fields()}
-    return labels
-
-
-def _params(terms: tuple[Term, ...], picks: Mapping[str, str]) -> type[ParameterSet]:
-    defaults = {f"{t.prefix}_weight": t.weight for t in terms}
+        yield f"{t.prefix}_weight", f"{t.prefix}.weight", t.weight, (0.0, 1e6)
     for t in terms:
-        defaults |= dict(zip(t.fields(), t.model.parameters(), strict=True))
-    return parameter_type(defaults, defaults, picks)
-
-
-def _domain(terms: tuple[Term, ...]) -> dict[str, tuple[float, float]]:
-    domain = {f"{t.prefix}_weight": (0.0, 1e6) for t in terms}
-    for t in terms:
-        domain |= {f"{t.prefix}_{n}": ends for n, ends in t.model.domain.items()}
-    return domain
+        for name, default in t.model.parameters()._asdict().items():
+            yield f"{t.prefix}_{name}", f"{t.prefix}.{name}", default, t.model.domain.get(name)
 
 
 def _prepared(terms: tuple[Term, ...], p: ParameterSet) -> Last | Node:

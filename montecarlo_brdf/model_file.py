@@ -7,17 +7,75 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError, unknown
-from montecarlo_brdf.model import (
-    Limit,
-    Lobe,
-    Model,
-    NoParams,
-    Option,
-    ParameterSet,
-    parameter_type,
-)
+from montecarlo_brdf.model import Limit, Lobe, Model, NoParams, ParameterSet, parameter_type
 
 Namespace = Mapping[str, Any]
+
+
+class Rule(NamedTuple):
+    """What a member of a model file must be, as a test and in words, and what a Model keeps."""
+
+    fits: Callable[[Any], bool]
+    must: str
+    make: Callable[[Any], Any] = lambda value: value
+
+
+class Parts(NamedTuple):
+    """An option of a choice: what it binds, brings, and adds to domain and disclaims."""
+
+    functions: Mapping[str, Callable[..., Any]] = {}
+    params: Mapping[str, float] = {}
+    domain: Mapping[str, tuple[float, float]] = {}
+    disclaims: Mapping[str, str] = {}
+
+
+def _is(*kinds: type) -> Callable[[Any], bool]:
+    return lambda value: isinstance(value, kinds)
+
+
+def _is_pair(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) and len(value) == 2
+
+
+def _is_parameters(value: Any) -> bool:
+    defaults = getattr(value, "_field_defaults", None)
+    named = isinstance(value, type) and issubclass(value, tuple) and defaults is not None
+    return named and all(isinstance(v, (int, float)) for v in (defaults or {}).values())
+
+
+DICTIONARY = Rule(_is(Mapping), "a dictionary, not {!r}", dict)
+LIST = Rule(_is(list, tuple), "a list, not {!r}", tuple)
+NAME = Rule(_is(str), "a name, not {!r}")
+#: The functions of the contract and their arguments.
+FUNCTIONS = {"f": "(wo, wi, p)", "sample": "(wo, u, p)", "pdf": "(wo, wi, p)", "prepare": "(p)"}
+#: All other members.
+MEMBERS = {
+    "albedo": Rule(callable, "a function (cos_theta_o, p), not {!r}"),
+    "Params": Rule(_is_parameters, "a NamedTuple of numbers"),
+    "domain": DICTIONARY,
+    "choices": DICTIONARY,
+    "disclaims": DICTIONARY,
+    "verified": LIST,
+    "kinks": LIST,
+    "same_as": NAME,
+    "scales_with": NAME,
+    "isotropic": Rule(lambda value: True, "", bool),
+    "lossless": Rule(
+        _is(bool, list, tuple),
+        "True or a list of parameter sets, not {!r}",
+        lambda value: value if isinstance(value, bool) else tuple(value),
+    ),
+    "limits": Rule(
+        lambda value: isinstance(value, (list, tuple)) and all(map(_is_pair, value)),
+        "a list of (changed parameters, model), not {!r}",
+        lambda value: tuple(Limit(*pair) for pair in value),
+    ),
+    "lobe": Rule(
+        lambda value: _is_pair(value) and callable(value[1]),
+        "(kind, function of p), not {!r}",
+        lambda value: Lobe(*value),
+    ),
+}
 
 
 def build(name: str, namespace: Namespace, picks: Mapping[str, str], built_in: bool) -> Model:
@@ -25,28 +83,23 @@ def build(name: str, namespace: Namespace, picks: Mapping[str, str], built_in: b
 
     Raises ModelError where a name does not stand for what it must.
     """
-    check(name, namespace)
-    choices = namespace.get("choices") or {}
+    given = _members_of(name, namespace)
+    choices = given.get("choices", {})
     picks = {c: picks.get(c, next(iter(options))) for c, options in choices.items()}
     options = [_parts(c, choices[c][pick]) for c, pick in picks.items()]
     bound = _rebound(namespace, {k: v for o in options for k, v in o.functions.items()})
-    params = _params_of(bound.get("Params") or NoParams, options, picks)
-    domain = dict(bound.get("domain") or {})
-    disclaims = dict(bound.get("disclaims") or {})
-    for option in options:
-        domain.update(option.domain)
-        disclaims.update(option.disclaims)
-    _check_domain(name, domain)
+    given |= {k: bound[k] for k in (*FUNCTIONS, "albedo") if k in given}
+    given["Params"] = params = _params_of(given.get("Params", NoParams), options, picks)
+    for member in ("domain", "disclaims"):
+        added = [getattr(option, member) for option in options]
+        given[member] = {k: v for each in (given.get(member, {}), *added) for k, v in each.items()}
+    _check_domain(name, given["domain"])
     if not choices:  # of which each brings parameters of its own
-        _known(f"parameter of model {name}", "domain", domain, params._fields)
-    given = {k: make(bound[k]) for k, make in MADE.items() if bound.get(k) is not None}
+        _known(f"parameter of model {name}", "domain", given["domain"], params._fields)
+    given["domain"] = {k: v for k, v in given["domain"].items() if k in params._fields}
     return Model(
         name=name,
         doc=str(namespace.get("__doc__") or ""),
-        Params=params,
-        domain={k: v for k, v in domain.items() if k in params._fields},
-        choices=choices,
-        disclaims=disclaims,
         built_in=built_in,
         picks=picks,
         namespace=namespace,
@@ -55,77 +108,21 @@ def build(name: str, namespace: Namespace, picks: Mapping[str, str], built_in: b
     )
 
 
-class Rule(NamedTuple):
-    """What a member must be, as a test and as the end of a sentence."""
-
-    fits: Callable[[Any], bool]
-    must: str
-
-
-def _is(*kinds: type) -> Callable[[Any], bool]:
-    return lambda value: isinstance(value, kinds)
-
-
-def _is_parameters(value: Any) -> bool:
-    named = isinstance(value, type) and issubclass(value, tuple)
-    defaults = getattr(value, "_field_defaults", {"none": None})
-    return named and all(isinstance(v, (int, float)) for v in defaults.values())
-
-
-def _is_lobe(value: Any) -> bool:
-    return isinstance(value, (list, tuple)) and len(value) == 2 and callable(value[1])
-
-
-def _is_limits(value: Any) -> bool:
-    pairs = isinstance(value, (list, tuple)) and all(
-        isinstance(v, (list, tuple)) and len(v) == 2 for v in value
-    )
-    return pairs and all(isinstance(changes, Mapping) for changes, _ in value)
-
-
-DICTIONARY = Rule(_is(Mapping), "a dictionary")
-LIST = Rule(_is(list, tuple), "a list")
-NAME = Rule(_is(str), "a name")
-RULES = {
-    "domain": DICTIONARY,
-    "choices": DICTIONARY,
-    "disclaims": DICTIONARY,
-    "verified": LIST,
-    "kinks": LIST,
-    "same_as": NAME,
-    "scales_with": NAME,
-    "lossless": Rule(_is(bool, list, tuple), "True or a list of parameter sets"),
-    "limits": Rule(_is_limits, "a list of (changed parameters, model)"),
-    "albedo": Rule(callable, "a function (cos_theta_o, p)"),
-    "lobe": Rule(_is_lobe, "(kind, function of p that returns a width)"),
-    "Params": Rule(_is_parameters, "a NamedTuple of numbers"),
-}
-#: The arguments of the functions of the contract.
-ARGUMENTS = {"f": "(wo, wi, p)", "sample": "(wo, u, p)", "pdf": "(wo, wi, p)", "prepare": "(p)"}
-#: Member -> what a Model keeps of it, where the file has it.
-MADE: dict[str, Callable[[Any], Any]] = {
-    **dict.fromkeys((*ARGUMENTS, "albedo", "same_as", "scales_with"), lambda value: value),
-    "verified": tuple,
-    "kinks": tuple,
-    "lossless": lambda value: value if isinstance(value, bool) else tuple(value),
-    "isotropic": bool,
-    "limits": lambda value: tuple(Limit(*pair) for pair in value),
-    "lobe": lambda value: Lobe(*value),
-}
-
-
-def check(name: str, namespace: Namespace) -> None:
-    """Raise ModelError for a member that is not what it must be: the only check of a model file."""
-    for member, rule in RULES.items():
-        value = namespace.get(member)
-        if value is not None and not rule.fits(value):
-            said = "" if member == "Params" else f", not {value!r}"
-            raise ModelError(f"{member} of model {name} must be {rule.must}{said}")
-    for category, options in (namespace.get("choices") or {}).items():
+def _members_of(name: str, namespace: Namespace) -> dict[str, Any]:
+    """The members that a file has. Raises ModelError for one that is not what it must be: the only
+    check there is, for built-in files and others."""
+    given: dict[str, Any] = {k: namespace.get(k) for k in (*MEMBERS, *FUNCTIONS)}
+    given = {k: v for k, v in given.items() if v is not None}
+    for member, rule in MEMBERS.items():
+        if member in given and not rule.fits(given[member]):
+            raise ModelError(f"{member} of model {name} must be {rule.must.format(given[member])}")
+    given = {k: MEMBERS[k].make(v) if k in MEMBERS else v for k, v in given.items()}
+    for category, options in given.get("choices", {}).items():
         _check_options(name, category, options)
-    for member, arguments in ARGUMENTS.items():
-        if member == "f" or namespace.get(member) is not None:
-            _check_arguments(name, member, arguments, namespace.get(member))
+    for member in FUNCTIONS:
+        if member == "f" or member in given:
+            _check_arguments(name, member, given.get(member))
+    return given
 
 
 def _check_options(name: str, category: str, options: Any) -> None:
@@ -133,11 +130,11 @@ def _check_options(name: str, category: str, options: Any) -> None:
         raise ModelError(f"choices of model {name} needs a dictionary of options for {category}")
     for pick, option in options.items():
         parts = option if isinstance(option, Mapping) else ()
-        _known(f"part of an option of model {name}", f"{category}={pick}", parts, Parts._fields)
+        _known("part of an option", f"{category}={pick} of model {name}", parts, Parts._fields)
 
 
-def _check_arguments(name: str, member: str, arguments: str, value: Any) -> None:
-    function = getattr(value, "py_func", value)  # of what numba has compiled
+def _check_arguments(name: str, member: str, value: Any) -> None:
+    function, arguments = getattr(value, "py_func", value), FUNCTIONS[member]
     if not isinstance(function, types.FunctionType):
         raise ModelError(f"model {name} needs a function {member}{arguments}")
     if function.__code__.co_argcount != arguments.count(",") + 1:
@@ -145,10 +142,9 @@ def _check_arguments(name: str, member: str, arguments: str, value: Any) -> None
 
 
 def _check_domain(name: str, domain: Mapping[str, Any]) -> None:
-    """domain maps parameters to (low, high)."""
     for parameter, ends in domain.items():
-        pair = isinstance(ends, (list, tuple)) and len(ends) == 2
-        if not (pair and all(isinstance(e, (int, float)) for e in ends) and ends[0] <= ends[1]):
+        numbers = _is_pair(ends) and all(isinstance(e, (int, float)) for e in ends)
+        if not (numbers and ends[0] <= ends[1]):
             raise ModelError(
                 f"domain of model {name} must give (low, high) for {parameter}, not {ends!r}"
             )
@@ -160,16 +156,7 @@ def _known(kind: str, where: str, given: Iterable[str], allowed: tuple[str, ...]
             raise ModelError(f"{where}: {unknown(kind, word, allowed)}")
 
 
-class Parts(NamedTuple):
-    """An option in its long form: what it binds, brings, and adds to domain and disclaims."""
-
-    functions: Mapping[str, Callable[..., Any]] = {}
-    params: Mapping[str, float] = {}
-    domain: Mapping[str, tuple[float, float]] = {}
-    disclaims: Mapping[str, str] = {}
-
-
-def _parts(category: str, option: Option) -> Parts:
+def _parts(category: str, option: Any) -> Parts:
     return Parts(**option) if isinstance(option, Mapping) else Parts({category: option})
 
 
