@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 import types
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
@@ -18,6 +18,8 @@ from montecarlo_brdf.model import Model, ParameterSet, Prepared, Term, parameter
 from montecarlo_brdf.models._cosine import sample as cosine_sample
 from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
+
+Plain = Callable[..., Any]
 
 FIRST: Any = None  # bound to the functions of one term
 REST: Any = None  # and to the mixture of the terms after it
@@ -154,7 +156,7 @@ def _varied(terms: tuple[Term, ...], picks: Mapping[str, str]) -> tuple[Term, ..
     return tuple(t._replace(model=t.model.variant(**own(t))) for t in terms)
 
 
-def _chain(functions: list[Any], link: Any, last: Any) -> Any:
+def _chain(functions: Sequence[Plain], link: Plain, last: Plain) -> Plain:
     """The functions of all terms in one: each link binds one and the chain after it."""
     chained = _bound(last, FIRST=functions[-1])
     for function in reversed(functions[:-1]):
@@ -162,7 +164,7 @@ def _chain(functions: list[Any], link: Any, last: Any) -> Any:
     return chained
 
 
-def _bound(template: Any, **names: Any) -> Any:
+def _bound(template: Plain, **names: Plain) -> Plain:
     return types.FunctionType(template.__code__, {**globals(), **names}, template.__name__)
 
 
