@@ -39,7 +39,8 @@ def command(**options: Any) -> int:  # fmt: skip
 
     A method is a sampler or chart with a point set, shown with the fewest samples that suffice, or
     auto, as in --target-error, which has to find all by itself. Errors are true ones, against the
-    model's reference, else a quadrature or a precise estimate of its f. There is no verdict.
+    model's reference, else a quadrature or a precise estimate of its f; of a colour the first
+    channel counts. There is no verdict.
     """
     from montecarlo_brdf import files, loading
     from montecarlo_brdf.cli._progress import progress

@@ -18,7 +18,7 @@ def table(data: dict[str, Any]) -> str:
     lines = [
         title(data),
         f"A = {known['value']:.10g} ({known['kind']}, to {known['relative_error']:.0e})",
-        f"Errors: root mean square of {data['seeds']} seeds. Times: processor, one estimate.",
+        f"Relative errors: root mean square of {data['seeds']} seeds. Times: of the processor.",
     ]
     for target, rows in data["targets"].items():
         lines += ["", f"  to {target:<25}   samples     error   seconds  ns/sample"]
