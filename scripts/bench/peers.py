@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from montecarlo_brdf.bench.workloads import Workload, integrand
+from bench.workloads import Workload, integrand
 
 Run = Callable[[int], float]
 Runs = Iterator[tuple[str, Run]]

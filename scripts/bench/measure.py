@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import contextlib
 import math
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.bench import peers
-from montecarlo_brdf.bench.workloads import WORKLOADS, Workload
+from bench import peers
+from bench.workloads import Workload
 from montecarlo_brdf.estimate.estimators import directional_albedo
 
 OURS = "brdf-check"
@@ -52,8 +53,7 @@ METHODS: dict[str, Callable[[Workload], peers.Runs]] = {OURS: ours, **peers.PEER
 def sweep(work: Workload, names: Sequence[str]) -> Iterator[tuple[Timing, peers.Run]]:
     """Time and error of every setting of every method that is installed."""
     for name in names:
-        # cubepy gives up with a warning
-        with contextlib.suppress(ImportError, RuntimeWarning):
+        with _left_out(name, work):
             theirs = name == "mitsuba llvm" and work.model_name == "ggx"
             truth = separable(work) if theirs else work.truth()
             for setting, run in METHODS[name](work):
@@ -61,6 +61,15 @@ def sweep(work: Workload, names: Sequence[str]) -> Iterator[tuple[Timing, peers.
                 yield timing, run
                 if timing.seconds > PATIENCE:
                     break
+
+
+@contextlib.contextmanager
+def _left_out(name: str, work: Workload) -> Iterator[None]:
+    """Say which peer is not measured, and why; cubepy gives up with a warning."""
+    try:
+        yield
+    except (ImportError, RuntimeWarning) as reason:
+        print(f"{work.name}: {name} left out: {reason}", file=sys.stderr)
 
 
 def separable(work: Workload) -> float:
@@ -152,16 +161,3 @@ def quartiles(values: Sequence[float]) -> tuple[float, float, float]:
     ranked = sorted(values)
     low, middle, high = (ranked[round(q * (len(ranked) - 1))] for q in (0.25, 0.5, 0.75))
     return low, middle, high
-
-
-def bench(
-    names: Sequence[str], works: Sequence[str], rounds: int, progress: Any = None
-) -> list[Any]:
-    """`compare` for every workload asked for."""
-    chosen = [w for w in WORKLOADS if w.name in works]
-    results = []
-    for work in chosen:
-        results.append(compare(work, names, rounds))
-        if progress:
-            progress(len(results) / len(chosen))
-    return results

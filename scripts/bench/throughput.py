@@ -6,8 +6,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from montecarlo_brdf.bench.measure import quartiles
-from montecarlo_brdf.bench.workloads import integrand
+from bench.measure import quartiles
+from bench.workloads import integrand
 from montecarlo_brdf.compile import compiler
 from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.estimate import moments, quantity, work
@@ -109,18 +109,3 @@ def growth(rounds: int) -> dict[str, list[tuple[int, float]]]:
             for n in (1, 2)
         ],
     }
-
-
-def processor() -> str:
-    """The name of this machine's processor."""
-    import platform
-
-    try:
-        with open("/proc/cpuinfo", encoding="ascii", errors="replace") as file:
-            lines = [line for line in file if line.startswith("model name")]
-    except OSError:
-        lines = []
-    names = [line.partition(":")[2].strip() for line in lines]
-    return f"{names[0]}, {len(names)} threads" if names else platform.processor()
-
-
