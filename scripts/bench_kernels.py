@@ -24,8 +24,8 @@ from environment import describe
 
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.compile import kernel, native
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.compile.layout import Layout, Unpack, pack
-from montecarlo_brdf.compile.reach import hole
 from montecarlo_brdf.estimate import moments
 from montecarlo_brdf.estimate.quantity import Quantity, integrand
 from montecarlo_brdf.sampling import points

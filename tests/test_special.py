@@ -15,7 +15,7 @@ import pytest
 
 from montecarlo_brdf import special
 from montecarlo_brdf.compile import kernel
-from montecarlo_brdf.compile.reach import hole
+from montecarlo_brdf.compile.bind import hole
 
 mp.mp.dps = 40
 

@@ -12,8 +12,9 @@ import types
 from collections.abc import Mapping
 from typing import Any
 
-from montecarlo_brdf.compile.bind import Bound, Instruction
-from montecarlo_brdf.compile.reach import (
+from montecarlo_brdf.compile.bind import (
+    Bound,
+    Instruction,
     is_own_module,
     module_functions,
     names_used,

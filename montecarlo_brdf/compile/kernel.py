@@ -18,9 +18,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.compile import cache, compiler, layout, linking, native, twins
-from montecarlo_brdf.compile.bind import Bound, Specialiser, bound
+from montecarlo_brdf.compile.bind import Bound, Function, Specialiser, bound
 from montecarlo_brdf.compile.fingerprint import Fingerprint
-from montecarlo_brdf.compile.reach import Function
 from montecarlo_brdf.errors import ModelError, UserError
 
 if TYPE_CHECKING:

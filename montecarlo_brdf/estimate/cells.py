@@ -14,9 +14,9 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.bits import u64
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Buffer, Unpack, pack
-from montecarlo_brdf.compile.reach import hole
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.independent import independent_axis
 from montecarlo_brdf.sampling.slopes import coordinates, direction

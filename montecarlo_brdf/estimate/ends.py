@@ -10,9 +10,9 @@ import math
 from array import array
 from typing import Any, NamedTuple
 
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Unpack, pack
-from montecarlo_brdf.compile.reach import hole
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand, samplers_of
 from montecarlo_brdf.model import Model

@@ -15,10 +15,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from montecarlo_brdf.bits import smaller, u64
-from montecarlo_brdf.compile.bind import Bound, bound
+from montecarlo_brdf.compile.bind import Bound, Function, bound, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import Buffer, Layout, Unpack
-from montecarlo_brdf.compile.reach import Function, hole
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import NONE, replicate_key

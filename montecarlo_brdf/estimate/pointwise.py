@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Unpack, pack
-from montecarlo_brdf.compile.reach import hole
 from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.model import Model
 

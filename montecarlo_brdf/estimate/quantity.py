@@ -11,8 +11,7 @@ from collections.abc import Callable, Mapping
 from enum import StrEnum
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.compile.bind import Bound, bound
-from montecarlo_brdf.compile.reach import hole, takes_more
+from montecarlo_brdf.compile.bind import Bound, bound, hole, takes_more
 from montecarlo_brdf.sampling.charts import Row, smooth_step
 from montecarlo_brdf.sampling.directions import (
     DIRECTIONS,

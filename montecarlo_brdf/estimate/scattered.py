@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import Buffer, Row, Unpack, following, numbers_of, shape_of
-from montecarlo_brdf.compile.reach import hole
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand, samplers_of
 from montecarlo_brdf.model import Model

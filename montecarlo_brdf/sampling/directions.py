@@ -13,7 +13,7 @@ from collections.abc import Callable
 from enum import StrEnum
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.compile.reach import hole
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.sampling import charts
 from montecarlo_brdf.sampling.charts import Row
 from montecarlo_brdf.sampling.slopes import FINEST, direction

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from montecarlo_brdf.compile.reach import hole
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine, random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
 

@@ -10,10 +10,9 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.compile.bind import bound
+from montecarlo_brdf.compile.bind import bound, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import Unpack, pack
-from montecarlo_brdf.compile.reach import hole
 from montecarlo_brdf.estimate.subject import functions_of
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key

@@ -13,7 +13,7 @@ import types
 from dataclasses import replace
 from typing import Any
 
-from montecarlo_brdf.compile.reach import plain
+from montecarlo_brdf.compile.bind import plain
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.scene.radiance import value_of
 from montecarlo_brdf.scene.scene import Scene

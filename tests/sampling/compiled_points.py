@@ -10,7 +10,7 @@ import numpy as np
 
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.compile import compiler, kernel
-from montecarlo_brdf.compile.reach import hole
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.sampling import points as sets
 
 POINTS: Any = hole()
