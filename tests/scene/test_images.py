@@ -12,7 +12,7 @@ from scenes import estimates, written
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.references import _irradiance
-from montecarlo_brdf.scene.image import read_image
+from montecarlo_brdf.scene.images import read_image
 
 RANDOM = np.random.default_rng(4)
 
@@ -69,7 +69,7 @@ def test_hdr(encoded: bool, tmp_path: Path) -> None:
     content = _hdr(values, encoded)
     assert (len(content) < 4 * 16 * 300) == encoded
     (tmp_path / "sky.hdr").write_bytes(content)
-    found = read_image(tmp_path / "sky.hdr").values
+    found = read_image(tmp_path / "sky.hdr")
     step = values.max(axis=2, keepdims=True) / 128.0
     assert found.shape == values.shape
     assert (np.abs(found - values) <= 0.5 * step).all()
@@ -80,7 +80,7 @@ def test_hdr_header(tmp_path: Path) -> None:
     """Exposures are undone, all of them; another colour space is refused."""
     path, values = tmp_path / "sky.hdr", np.ones((2, 8, 3))
     path.write_bytes(_hdr(values, True, b"EXPOSURE=2\nSOFTWARE=x\nEXPOSURE= 4\n"))
-    assert read_image(path).values == pytest.approx(values / 8.0, rel=5e-3)
+    assert read_image(path) == pytest.approx(values / 8.0, rel=5e-3)
     path.write_bytes(_hdr(values, True, b"FORMAT=32-bit_rle_xyze\n"))
     with pytest.raises(UserError, match="has the format 32-bit_rle_xyze"):
         read_image(path)
@@ -126,7 +126,7 @@ def test_png(bits: int, kind: int, channels: int, tmp_path: Path) -> None:
     values = RANDOM.integers(0, most + 1, (12, 9, channels))
     values[0, 0] = most
     (tmp_path / "sky.png").write_bytes(_png(values, bits, kind))
-    found = read_image(tmp_path / "sky.png").values
+    found = read_image(tmp_path / "sky.png")
     shown = values[:, :, : min(channels, 3)] / most
     linear = np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
     assert found == pytest.approx(linear, rel=1e-12, abs=1e-300)
@@ -138,7 +138,7 @@ def test_exr(tmp_path: Path) -> None:
     for channels in ({"RGB": values}, {"Y": values[:, :, 0].copy()}):
         header: dict[str, Any] = {"compression": exr.ZIP_COMPRESSION, "type": exr.scanlineimage}
         exr.File(header, channels).write(str(tmp_path / "sky.exr"))
-        found = read_image(tmp_path / "sky.exr").values
+        found = read_image(tmp_path / "sky.exr")
         assert np.array_equal(found[:, :, 0], values[:, :, 0].astype(float))
         assert found.shape[2] == (3 if "RGB" in channels else 1)
 
@@ -152,7 +152,7 @@ def test_a_panorama_lights_a_surface(tmp_path: Path) -> None:
         '[surface]\nmodel = "lambert"\nalbedo = 1.0\n'
         '[environment]\nkind = "image"\nfile = "sky.hdr"\n',
     )
-    decoded = read_image(tmp_path / "sky.hdr").values
+    decoded = read_image(tmp_path / "sky.hdr")
     for c, found in enumerate(estimates(scene, 30.0, 1 << 14)):
         e = found.estimate
         sums = [float(v) for v in decoded[:, :, c].sum(axis=1)]
