@@ -33,7 +33,7 @@ def parse(path: Path) -> tuple[dict[str, Any], str]:
         raise UserError(f"cannot read {path}: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
         raise UserError(f"{path} is not a TOML file: it is not text") from error
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # TOMLDecodeError, or a whole number of too many digits
         raise UserError(f"{path} is not a TOML file: {error}") from error
     except RecursionError as error:
         raise UserError(f"{path} is nested too deeply") from error

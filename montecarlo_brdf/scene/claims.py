@@ -10,7 +10,7 @@ import functools
 import itertools
 import math
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -44,49 +44,40 @@ PAIRS = tuple(
 
 
 def claims(scene: Scene, plan: ScenePlan, tolerance: float | None = None) -> Iterator[MeanClaim]:
-    """L_o for every view and channel."""
+    """L_o for every view and channel; the tolerance is relative."""
     for view, evaluated in plan.views.items():
-        wo = from_degrees(*evaluated)
-        measure = _radiance(scene, plan, wo)
+        measure = _radiance(scene, plan, from_degrees(*evaluated))
         for k in range(scene.channels):
             expected = truth.reference(plan.scene, from_degrees(*view), k)
-            relative = AGREEMENT_TOLERANCE if tolerance is None else tolerance
-            yield MeanClaim(
-                "L_o",
-                place(scene, view, k),
-                Bound.EQUAL,
-                expected,
-                relative * abs(expected.value),
-                functools.partial(_channel, measure, k),
-            )
+            channel = functools.partial(_channel, measure, k)
+            yield _equal("L_o", place(scene, view, k), expected, tolerance, channel)
+
+
+def _equal(
+    quantity: str,
+    where: Mapping[str, float],
+    expected: Reference,
+    tolerance: float | None,
+    measure: Measure,
+) -> MeanClaim:
+    relative = AGREEMENT_TOLERANCE if tolerance is None else tolerance
+    width = relative * abs(expected.value)
+    return MeanClaim(quantity, where, Bound.EQUAL, expected, width, measure)
 
 
 def _radiance(scene: Scene, plan: ScenePlan, wo: Vec) -> Measure:
     """L_o of all channels, computed once per number of samples."""
     if isinstance(scene.surface, Standard):
         return functools.partial(_shaded, scene, scene.surface, plan, wo)
-    return _remembered(plan, wo)
+    return functools.partial(_remembered, plan, wo)
 
 
-def _remembered(plan: ScenePlan, wo: Vec) -> Measure:
+def _remembered(plan: ScenePlan, wo: Vec, sampling: Plan) -> list[Measurement]:
     """Views that share an evaluation share its estimates."""
-    known = _known(id(plan), wo) if plan.skip else {}
-    known.setdefault(None, plan)  # keeps the id from being used again
-
-    def measure(sampling: Plan) -> list[Measurement]:
-        at = sampling._replace(progress=None)
-        if at not in known:
-            known[at] = radiance.measure(plan, wo, sampling)
-        found: list[Measurement] = known[at]
-        return found
-
-    return measure
-
-
-@functools.lru_cache(maxsize=64)
-def _known(plan: int, wo: Vec) -> dict[Plan | None, Any]:
-    """Measurements by plan of sampling."""
-    return {}
+    at = (wo, sampling._replace(progress=None))
+    if at not in plan.known:
+        plan.known[at] = radiance.measure(plan, wo, sampling)
+    return plan.known[at]
 
 
 def _shaded(
@@ -106,9 +97,7 @@ def energy_claims(
 ) -> Iterator[MeanClaim]:
     """A <= 1 at every polar angle of the view, or R <= 1 with the light there."""
     angle, quantity = ("theta_i_deg", "R <= 1") if reverse else ("theta_o_deg", "A <= 1")
-    for theta in dict.fromkeys(theta for theta, _ in furnace.views):
-        view = (theta, scene.view.phi_o_deg[0])
-        measure = _remembered(furnace, from_degrees(*furnace.views[view]))
+    for view, measure in _albedos(furnace):
         for k in range(scene.channels):
             yield MeanClaim(
                 quantity,
@@ -120,6 +109,14 @@ def energy_claims(
                 property=Property.ENERGY,
                 unit={} if reverse else _units(scene, k),
             )
+
+
+def _albedos(furnace: ScenePlan) -> Iterator[tuple[Angles, Measure]]:
+    """Every polar angle of the view at its first azimuth, and the albedos there."""
+    phi = furnace.scene.view.phi_o_deg[0]
+    for theta in dict.fromkeys(theta for theta, _ in furnace.views):
+        wo = from_degrees(*furnace.views[theta, phi])
+        yield (theta, phi), functools.partial(_remembered, furnace, wo)
 
 
 def _units(scene: Scene, channel: int) -> dict[str, float]:
@@ -137,23 +134,14 @@ def band_claims(scene: Scene, furnace: ScenePlan, tolerance: float | None) -> It
     if scene.band is None:
         return
     shares = scene.band.shares
-    for theta in dict.fromkeys(theta for theta, _ in furnace.views):
-        view = (theta, scene.view.phi_o_deg[0])
-        measure = _remembered(furnace, from_degrees(*furnace.views[view]))
-        rows = [
-            truth.reference(furnace.scene, from_degrees(*view), k) for k in range(scene.channels)
-        ]
+    for view, measure in _albedos(furnace):
+        wo = from_degrees(*view)
+        rows = [truth.reference(furnace.scene, wo, k) for k in range(scene.channels)]
         value = math.fsum(s * r.value for s, r in zip(shares, rows, strict=True))
         error = math.fsum(s * r.error for s, r in zip(shares, rows, strict=True))
-        relative = AGREEMENT_TOLERANCE if tolerance is None else tolerance
-        yield MeanClaim(
-            "albedo over the band",
-            {"theta_o_deg": theta},
-            Bound.EQUAL,
-            Reference(value, error + 1e-15 * abs(value), rows[0].kind, rows[0].source),
-            relative * abs(value),
-            functools.partial(_weighted, measure, shares),
-        )
+        expected = Reference(value, error + 1e-15 * abs(value), rows[0].kind, rows[0].source)
+        band = functools.partial(_weighted, measure, shares)
+        yield _equal("albedo over the band", {"theta_o_deg": view[0]}, expected, tolerance, band)
 
 
 def _weighted(measure: Measure, shares: list[float], sampling: Plan) -> list[Measurement]:
@@ -163,9 +151,9 @@ def _weighted(measure: Measure, shares: list[float], sampling: Plan) -> list[Mea
     return [Measurement(rows[0].estimator, radiance.combined(0.0, parts), unfit)]
 
 
-def place(scene: Scene, view: Angles, channel: int, angle: str = "theta_o_deg") -> dict[str, Any]:
+def place(scene: Scene, view: Angles, channel: int, angle: str = "theta_o_deg") -> dict[str, float]:
     """Where a finding stands."""
-    where: dict[str, Any] = {angle: view[0]}
+    where: dict[str, float] = {angle: view[0]}
     if len(scene.view.phi_o_deg) > 1 or view[1]:
         where[angle.replace("theta", "phi")] = view[1]
     if scene.band:

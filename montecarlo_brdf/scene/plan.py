@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.colour import Colour
@@ -56,6 +58,7 @@ class ScenePlan(NamedTuple):
     views: dict[Angles, Angles]  # every view, and the one that is evaluated for it
     items: list[Item]
     skip: bool
+    known: dict[tuple[Vec, Plan], list[Measurement]]  # by view and sampling, as they are measured
 
 
 def make(scene: Scene, skip: bool = True, sphere: bool = False) -> ScenePlan:
@@ -73,7 +76,7 @@ def make(scene: Scene, skip: bool = True, sphere: bool = False) -> ScenePlan:
     for name, colour in (("ambient", scene.ambient), ("emission", whole.emission)):
         if skip and not any(colour):
             items.append(Item(name, False, "it is zero"))
-    return ScenePlan(whole, works, lights, lobes, _views(whole, skip, items), items, skip)
+    return ScenePlan(whole, works, lights, lobes, _views(whole, skip, items), items, skip, {})
 
 
 def _lobes(scene: Scene, skip: bool, items: list[Item]) -> list[Lobe]:

@@ -93,13 +93,13 @@ def test_hdr_header(tmp_path: Path) -> None:
         read_image(path)
 
 
+def _chunk(name: bytes, data: bytes) -> bytes:
+    checked = name + data
+    return struct.pack(">I", len(data)) + checked + struct.pack(">I", zlib.crc32(checked))
+
+
 def _png(values: np.ndarray, bits: int, kind: int) -> bytes:
     """A PNG whose rows take the five filters in turn."""
-
-    def chunk(name: bytes, data: bytes) -> bytes:
-        checked = name + data
-        return struct.pack(">I", len(data)) + checked + struct.pack(">I", zlib.crc32(checked))
-
     height, width = values.shape[:2]
     rows = values.astype(f">u{bits // 8}").reshape(height, -1).view("u1").astype(int)
     step = rows.shape[1] // width
@@ -113,7 +113,7 @@ def _png(values: np.ndarray, bits: int, kind: int) -> bytes:
         above = row
     head = struct.pack(">IIBBBBB", width, height, bits, kind, 0, 0, 0)
     parts = ((b"IHDR", head), (b"IDAT", zlib.compress(body)), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(chunk(*p) for p in parts)
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*p) for p in parts)
 
 
 @pytest.mark.parametrize("bits", [8, 16])
@@ -130,6 +130,76 @@ def test_png(bits: int, kind: int, channels: int, tmp_path: Path) -> None:
     shown = values[:, :, : min(channels, 3)] / most
     linear = np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
     assert found == pytest.approx(linear, rel=1e-12, abs=1e-300)
+
+
+def _deep_png(path: Path) -> np.ndarray:
+    """A file with 16 bits of RGB, and its values."""
+    values = RANDOM.integers(0, 1 << 16, (12, 9, 3))
+    path.write_bytes(_png(values, 16, 2))
+    return values
+
+
+class Documented:
+    """A picture of which nothing but what Pillow documents can be seen, and nothing changed."""
+
+    SEEN = ("__array_interface__", "convert", "height", "info", "mode", "size", "width")
+
+    def __init__(self, picture: Any) -> None:
+        object.__setattr__(self, "_picture", picture)
+
+    def __enter__(self) -> "Documented":
+        self._picture.__enter__()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._picture.__exit__(*error)
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in self.SEEN:
+            raise AttributeError(name)
+        return getattr(self._picture, name)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(name)
+
+
+def test_png_leaves_pillow_as_it_is(tmp_path: Path, monkeypatch: Any) -> None:
+    from PIL import Image
+
+    values, opened = _deep_png(tmp_path / "sky.png"), Image.open
+    monkeypatch.setattr(Image, "open", lambda *a, **more: Documented(opened(*a, **more)))
+    s = values / 65535
+    linear = np.where(s <= 0.04045, s / 12.92, ((s + 0.055) / 1.055) ** 2.4)
+    assert read_image(tmp_path / "sky.png") == pytest.approx(linear, rel=1e-12, abs=1e-300)
+
+
+def test_png_in_several_parts(tmp_path: Path) -> None:
+    """Pixels may stand in any number of chunks, and anything after the end."""
+    path = tmp_path / "sky.png"
+    _deep_png(path)
+    whole = read_image(path)
+    content = path.read_bytes()
+    at = content.index(b"IDAT")
+    length = int.from_bytes(content[at - 4 : at], "big")
+    data, rest = content[at + 4 : at + 4 + length], content[at + 8 + length :]
+    chunks = b"".join(_chunk(b"IDAT", part) for part in (data[:50], b"", data[50:]))
+    path.write_bytes(content[: at - 4] + chunks + rest + b"more")
+    assert np.array_equal(read_image(path), whole)
+
+
+def test_png_interlaced(tmp_path: Path) -> None:
+    """Adam7: seven pictures of every second, fourth or eighth pixel, none of them filtered."""
+    path = tmp_path / "sky.png"
+    values = _deep_png(path)
+    whole, body = read_image(path), b""
+    starts = ((0, 0, 8, 8), (0, 4, 8, 8), (4, 0, 8, 4), (0, 2, 4, 4), (2, 0, 4, 2), (0, 1, 2, 2))
+    for y, x, down, across in (*starts, (1, 0, 2, 1)):
+        for row in values[y::down, x::across].astype(">u2"):
+            body += b"\0" + row.tobytes()
+    head = struct.pack(">IIBBBBB", 9, 12, 16, 2, 0, 0, 1)
+    parts = ((b"IHDR", head), (b"IDAT", zlib.compress(body)), (b"IEND", b""))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*p) for p in parts))
+    assert np.array_equal(read_image(path), whole)
 
 
 def test_exr(tmp_path: Path) -> None:
