@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
@@ -33,7 +33,7 @@ class Part(NamedTuple):
     parameters: tuple[float | Colour, ...]
 
 
-def read_scene(path: str | Path, **parameters: Any) -> Scene:
+def read_scene(path: str | Path, **parameters: object) -> Scene:
     """The scene in a file; `parameters` replace those of its surface model.
 
     Raises UserError with the line and what is allowed for anything wrong in it.
@@ -75,7 +75,7 @@ def scene_of(
     return with_views(scene, theta_o_deg)
 
 
-def assigned(values: Mapping[str, Any]) -> list[str]:
+def assigned(values: Mapping[str, object]) -> list[str]:
     """-p name=value of every parameter."""
     rows = ((k, v if isinstance(v, tuple) else (v,)) for k, v in values.items())
     return [word for k, v in rows for word in ("-p", f"{k}={'/'.join(map(str, v))}")]
@@ -87,7 +87,7 @@ def with_views(scene: Scene, theta_o_deg: Sequence[float]) -> Scene:
     return replace(scene, view=scene.view._replace(theta_o_deg=angles))
 
 
-def _assembled(top: SceneTable, parameters: Mapping[str, Any]) -> Scene:
+def _assembled(top: SceneTable, parameters: Mapping[str, object]) -> Scene:
     """The scene with every colour spread over the same number of channels."""
     name = top.text_of("name", top.file.stem)
     surface = _surface(top.table("surface"), parameters)
@@ -145,7 +145,7 @@ def _spread_surface(surface: Standard | list[Part], count: int) -> Surface | Sta
     return Surface(tuple(lobe for row in rows for lobe in row))
 
 
-def _surface(table: SceneTable, parameters: Mapping[str, Any]) -> Standard | list[Part]:
+def _surface(table: SceneTable, parameters: Mapping[str, object]) -> Standard | list[Part]:
     """A model, lobes, or the standard lighting equation."""
     if "equation" in table.data:
         return _standard(table)
@@ -156,7 +156,7 @@ def _surface(table: SceneTable, parameters: Mapping[str, Any]) -> Standard | lis
     return found
 
 
-def _part(table: SceneTable, parameters: Mapping[str, Any]) -> Part:
+def _part(table: SceneTable, parameters: Mapping[str, object]) -> Part:
     """A model with its weight and the parameters that stand beside it or in `parameters`."""
     weight = table.colour("weight", 1.0)
     with table.at("model"):
