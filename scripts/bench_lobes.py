@@ -19,7 +19,6 @@ from typing import Any
 from environment import describe
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.compile.kernel import compiled
 from montecarlo_brdf.estimate import methods, work
 from montecarlo_brdf.sampling.points import SHAPES
 from montecarlo_brdf.vectors import from_degrees
@@ -45,7 +44,7 @@ def per_sample(name: str) -> float:
     p = model.parameters()
     made = methods.prepare(model, p, type(p), methods.methods(model)[0])
     reals = (*from_degrees(60.0), made.width, *made.numbers)
-    entry = compiled(made.model, made.means)
+    entry = made.means()
     shape = SHAPES["lattice"](SIZE)
     began = time.perf_counter()
     work.run(work.Job(entry, reals, 1, SIZE, REPLICATES, SIZE, shape))

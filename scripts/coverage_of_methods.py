@@ -25,7 +25,6 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading, references
-from montecarlo_brdf.compile.kernel import compiled
 from montecarlo_brdf.estimate import methods, trust, work
 from montecarlo_brdf.estimate.ascent import Ascent
 from montecarlo_brdf.estimate.plan import Plan
@@ -61,11 +60,10 @@ def cases(name: str) -> Iterator[tuple[Any, Any, float]]:
 
 def drawn(setting: methods.Setting, wo: Any, size: int, seeds: int) -> list[Estimate]:
     """Estimates of 16 replicates each, with the error bars that reports show."""
-    points = setting.means.points
+    points = setting.method.points
     shape = SHAPES[points](size) if points in SHAPES else NONE
     reals = (*wo, setting.width, *setting.numbers)
-    entry = compiled(setting.model, setting.means)
-    rows = work.run(work.Job(entry, reals, 1, size, REPLICATES * seeds, size, shape))[0]
+    rows = work.run(work.Job(setting.means(), reals, 1, size, REPLICATES * seeds, size, shape))[0]
     return [estimate(rows[i : i + REPLICATES]) for i in range(0, len(rows), REPLICATES)]
 
 

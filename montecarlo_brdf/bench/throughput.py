@@ -8,12 +8,13 @@ from typing import Any
 
 from montecarlo_brdf.bench.measure import quartiles
 from montecarlo_brdf.bench.workloads import integrand
-from montecarlo_brdf.compile import compiler, kernel
+from montecarlo_brdf.compile import compiler
 from montecarlo_brdf.compile.layout import pack
-from montecarlo_brdf.estimate import integrands, moments, work
+from montecarlo_brdf.estimate import moments, quantity, work
 from montecarlo_brdf.estimate.estimators import directional_albedo
-from montecarlo_brdf.estimate.recipe import Recipe
+from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.loading import load
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.sampling.points import NONE, SHAPES
 from montecarlo_brdf.vectors import from_degrees
 
@@ -37,8 +38,8 @@ def cosine_job(name: str, samples: int, points: str = "independent") -> Callable
     model = load(name)
     p = model.parameters()
     layout, numbers = pack([model.prepared(p)], moments.QUERY)
-    recipe = Recipe(points, (integrands.albedo_cosine,), {"F": model.f}, layout)
-    entry = kernel.kernel_of(recipe)
+    mean = quantity.integrand(Quantity.ALBEDO, Sampler.COSINE, {"F": model.f})
+    entry = moments.kernel_of(name, points, [mean], layout)
     reals = (*from_degrees(60.0), 0.0, *numbers)
     shape = SHAPES[points](samples) if points in SHAPES else NONE
     return lambda: work.Ladder(entry, reals, 1, 1, 1).states(samples, shape)

@@ -1,15 +1,16 @@
-"""Bind a model's functions into a kernel template.
+"""Templates, and what becomes of them: functions in which some names stand for other things.
 
-A kernel is a plain Python function whose global names stand for other functions. A `Specialiser`
-clones it with those names bound, compiling everything it reaches (plain functions, functions of
-the user's own modules, functions that were already jitted) with our options.
+A template is a plain Python function of ours whose capitalised global names are holes. `bound` says
+what fills them: functions, numbers, other bound templates, instructions. A `Specialiser` makes
+clones with the holes filled, compiling everything they reach (plain functions, functions of the
+user's own modules, functions that were already jitted) with our options, each once.
 """
 
 from __future__ import annotations
 
 import types
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.compile.reach import (
     Function,
@@ -18,8 +19,32 @@ from montecarlo_brdf.compile.reach import (
     names_used,
     plain,
     references,
-    shares,
+    uses,
 )
+
+
+class Bound(NamedTuple):
+    """A template and what its holes are filled with, also in templates that fill holes of it."""
+
+    function: Function
+    names: frozenset[tuple[str, object]]
+
+
+def bound(function: Function, **names: object) -> Bound:
+    """`function` with names that stand for something."""
+    return Bound(function, frozenset(names.items()))
+
+
+class Instruction:
+    """Something that only compiled code can do; equal ones do the same."""
+
+    def key(self) -> object:
+        """What it depends on, as plain data."""
+        raise NotImplementedError
+
+    def intrinsic(self) -> Any:
+        """What numba calls."""
+        raise NotImplementedError
 
 
 class Specialiser:
@@ -28,43 +53,48 @@ class Specialiser:
     def __init__(self, compile: Callable[[Function], Any], twins: Mapping[Any, Any]):
         self._compile = compile
         self._done: dict[int, Any] = {}
-        self._bound: dict[tuple[Any, ...], Any] = {}
+        self._bound: dict[Bound, Any] = {}
+        self._instructions: dict[Instruction, Any] = {}
         self._modules: dict[tuple[int, int], types.ModuleType] = {}
         self._twins = {id(f): twin for f, twin in twins.items()}
         self._alive: list[Any] = list(twins)
 
-    def bind(self, function: Function, bound: Mapping[str, Any]) -> Any:
-        """`function`, and what it shares names with, compiled with the names in `bound` standing
-        for the functions given."""
-        key = (id(function), *sorted((name, id(value)) for name, value in bound.items()))
-        if key not in self._bound:
-            self._alive += [function, *bound.values()]
-            self._bound[key] = self.compiled(self.clone(function, bound))
-        return self._bound[key]
+    def bind(self, template: Bound) -> Any:
+        """A template with its holes filled, compiled for others to call."""
+        if template not in self._bound:
+            made = self._compile(self.clone(template.function, dict(template.names)))
+            self._bound[template] = self._twins[id(made)] = made
+        return self._bound[template]
 
-    def compiled(self, clone: Function) -> Any:
-        """A clone compiled, for others to call as it is."""
-        compiled = self._compile(clone)
-        self._twins[id(compiled)] = compiled
-        return compiled
-
-    def clone(self, function: Function, bound: Mapping[str, Any]) -> types.FunctionType:
+    def clone(self, function: Function, names: Mapping[str, object]) -> types.FunctionType:
         """`function` with every global name it uses replaced by its compiled counterpart."""
+        code = function.__code__
         scope: dict[str, Any] = {"__builtins__": __builtins__, "__name__": function.__module__}
-        for name, value in references(function, bound).items():
-            beside = shares(function, value, bound)
-            scope[name] = (
-                self.bind(value, bound) if beside else self._counterpart(value, function.__code__)
-            )
+        for name, value in references(function, names).items():
+            scope[name] = self._stand_in(value, code, names)
         cells = tuple(
-            types.CellType(self._counterpart(c.cell_contents, function.__code__))
+            types.CellType(self._counterpart(c.cell_contents, code))
             for c in function.__closure__ or ()
         )
         clone = types.FunctionType(
-            function.__code__, scope, function.__name__, function.__defaults__, cells or None
+            code, scope, function.__name__, function.__defaults__, cells or None
         )
         clone.__qualname__ = function.__qualname__
         return clone
+
+    def _stand_in(self, value: Any, code: types.CodeType, names: Mapping[str, object]) -> Any:
+        if isinstance(value, Bound):
+            return self.bind(value)
+        if uses(value, names):
+            return self.bind(Bound(value, frozenset(names.items())))
+        if isinstance(value, Instruction):
+            return self._instruction(value)
+        return self._counterpart(value, code)
+
+    def _instruction(self, value: Instruction) -> Any:
+        if value not in self._instructions:
+            self._instructions[value] = value.intrinsic()
+        return self._instructions[value]
 
     def _counterpart(self, value: Any, code: types.CodeType) -> Any:
         if id(value) in self._twins:
@@ -86,10 +116,9 @@ class Specialiser:
         key = (id(module), id(code))
         if key not in self._modules:
             self._alive += [module, code]
-            stand_in = self._modules[key] = types.ModuleType(module.__name__)  # before its members:
-            for name, value in module_functions(
-                module, names_used(code)
-            ).items():  # they may use it
+            stand_in = self._modules[key] = types.ModuleType(module.__name__)
+            members = module_functions(module, names_used(code))  # which may use the module itself
+            for name, value in members.items():
                 setattr(stand_in, name, self._counterpart(value, code))
         return self._modules[key]
 

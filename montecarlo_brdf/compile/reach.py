@@ -42,24 +42,32 @@ def globals_used(code: types.CodeType) -> tuple[str, ...]:
     return tuple(sorted(found.union(*map(globals_used, nested))))
 
 
-def references(function: Function, bound: Mapping[str, Any]) -> dict[str, Any]:
-    """The global names that `function` uses and what each stands for, `bound` first."""
-    found = {}
-    for name in globals_used(function.__code__):
-        if name in bound:
-            found[name] = bound[name]
-        elif name in function.__globals__:
-            found[name] = function.__globals__[name]
-    return found
+class Hole:
+    """What a name of a template is until something fills it."""
 
 
-def shares(function: Function, other: Any, bound: Mapping[str, Any]) -> bool:
-    """Whether `other` is a function beside `function` that uses names of `bound` as it does."""
-    return (
-        isinstance(other, types.FunctionType)
-        and other.__globals__ is function.__globals__
-        and not bound.keys().isdisjoint(globals_used(other.__code__))
-    )
+def hole() -> Any:
+    """A name of a template that is to be bound."""
+    return Hole()
+
+
+def references(function: Function, names: Mapping[str, object]) -> dict[str, Any]:
+    """The global names that `function` uses and what each stands for; `names` fill holes."""
+    scope = function.__globals__
+    used = [n for n in globals_used(function.__code__) if n in scope]
+    return {n: names[n] if _fills(scope[n], n, names) else scope[n] for n in used}
+
+
+def uses(value: object, names: Mapping[str, object]) -> bool:
+    """Whether `value` is a template with a hole that one of `names` fills."""
+    if not isinstance(value, types.FunctionType) or not names:
+        return False
+    scope = value.__globals__
+    return any(_fills(scope.get(n), n, names) for n in globals_used(value.__code__))
+
+
+def _fills(value: object, name: str, names: Mapping[str, object]) -> bool:
+    return isinstance(value, Hole) and name in names
 
 
 def takes_more(function: Function | None, place: int, count: int) -> bool:

@@ -14,7 +14,8 @@ from montecarlo_brdf.estimate.ascent import FIRST, Ascent
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.methods import Method, Setting, given, methods, prepare, told
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.samplers import integrand_name
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import integrand
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate, estimates_of
 from montecarlo_brdf.vectors import Vec
@@ -63,9 +64,9 @@ def albedo(
         picked = given(model, sampler, plan.points) if plan.method == "given" else None
         return _until(model, p, wo, plan, picked)
     best = suited(model, p, wo, plan)
-    names = [integrand_name(model, "albedo", best.sampler)]
+    mean = integrand(model, Quantity.ALBEDO, best.sampler)
     fixed = plan._replace(points=best.points)
-    rows = estimates(model, p, wo, names, fixed, ("albedo", best.sampler))
+    rows = estimates(model, p, wo, [mean], fixed, ("albedo", best.sampler))
     return [row[0]._replace(method=told(best)) for row in rows], True
 
 
@@ -87,7 +88,7 @@ def _until(
         f"{s.method.sampler} x {s.method.points} {o.complaint}" for s, o in tried if o.complaint
     )
     story = told(best.method, others)
-    return estimates_of(outcome.states, best.means.channels, story), outcome.reached
+    return estimates_of(outcome.states, best.channels, story), outcome.reached
 
 
 def _kind(p: Any) -> Any:

@@ -6,8 +6,6 @@ import ctypes
 import functools
 from array import array
 
-from montecarlo_brdf.compile.kernel import compiled
-from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.estimate import looks, work
 from montecarlo_brdf.estimate.looks import AT, NEXT, SIZES, STOP, TABLE, TAKEN
 from montecarlo_brdf.estimate.methods import Setting
@@ -48,7 +46,7 @@ class Ascent:
         self._ints[0] = self._key - (self._key >> 63 << 64)
         fall = LATTICES_FALL if setting.method.points == "lattice" else FALL
         self._reals = array("d", (*reals, target, fewest, hopeless, fall, *steps))
-        channels = setting.means.channels
+        channels = setting.channels
         self._end = STATE * channels * plan.replicates
         self._out = array("d", bytes(8 * (self._end + channels + 1 + len(steps))))
         self._at = [a.buffer_info()[0] for a in (self._ints, self._reals, self._out)]
@@ -69,21 +67,20 @@ class Ascent:
         """Look at sizes below the index `stop` until the target is met; at least at the probes."""
         ints, before = self._ints, self._ints[TAKEN]
         ints[STOP] = stop
-        if self._setting.entry(*self._at) != 0:
-            raise ModelError("the model raised an exception while it was sampled")
-        out, told = self._out.tolist(), self._end + self._setting.means.channels
+        self._setting.looks(*self._at)
+        out, told = self._out.tolist(), self._end + self._setting.channels
         self.need, self.size = out[told], ints[4]
         self.errors += out[told + 1 + before : told + 1 + ints[TAKEN]]
         self.states = out[: self._end]
 
     def _look_far(self, plan: Plan) -> None:
         """One look at more samples than a single call should take."""
-        ints, width, points = self._ints, self._setting.means.channels, self._setting.means.points
+        ints, width, points = self._ints, self._setting.channels, self._setting.method.points
         self.look(ints[NEXT])
         self.size = self.sizes[ints[NEXT]]
         shape = SHAPES[points](self.size) if points in SHAPES else NONE
-        entry = compiled(self._setting.model, self._setting.means)
-        job = work.Job(entry, self._reals[:], width, self._key, self._many, self.size, shape)
+        means, reals = self._setting.means(), self._reals[:]
+        job = work.Job(means, reals, width, self._key, self._many, self.size, shape)
         rows = zip(*work.run(job, plan.threads, None, plan.sums), strict=True)
         self.states = [x for row in rows for moments in row for x in moments]
         factor = self._reals[ints[AT] + looks.FACTORS + ints[TAKEN]]

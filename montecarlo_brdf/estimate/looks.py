@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Hashable
-from typing import Any, NamedTuple
+from typing import Any
 
 from montecarlo_brdf import student
-from montecarlo_brdf.compile import kernel
-from montecarlo_brdf.compile.bind import Specialiser
-from montecarlo_brdf.estimate import charted
-from montecarlo_brdf.estimate.moments import STATE
-from montecarlo_brdf.estimate.recipe import Recipe
+from montecarlo_brdf.compile.kernel import Kernel, kernel
+from montecarlo_brdf.compile.layout import Layout
+from montecarlo_brdf.compile.reach import hole
+from montecarlo_brdf.estimate.moments import STATE, template_of
+from montecarlo_brdf.estimate.quantity import Integrand
+from montecarlo_brdf.sampling.directions import PROBES
 from montecarlo_brdf.statistics import FLOOR
 
 LEVEL = 0.01  # of the interval that must be below the target, over all looks
@@ -29,10 +29,10 @@ COLUMNS = 6  # samples of a replicate and the shape of the point set
 #: error may fall from one size to the next), then a factor for each look
 FEWEST, HOPELESS, FALL, FACTORS = 1, 2, 3, 4
 
-MOMENTS: Any = None
-HIGHEST: Any = None
-PROBES = 0
-CHANNELS = 1
+MOMENTS: Any = hole()
+HIGHEST: Any = hole()
+PROBED: Any = hole()  # how many directions, 0 for none
+CHANNELS: Any = hole()
 
 
 def climb(ints: Any, reals: Any, out: Any) -> None:
@@ -44,12 +44,12 @@ def climb(ints: Any, reals: Any, out: Any) -> None:
     many, at = ints[2], ints[AT]
     end = STATE * CHANNELS * many
     told = end + CHANNELS
-    if PROBES > 0:
-        ints[2], ints[4] = 1, PROBES
+    if PROBED > 0:
+        ints[2], ints[4] = 1, PROBED
         HIGHEST(ints, reals, out)
         ints[2] = many
     for k in range(CHANNELS):
-        out[end + k] = out[STATE * k + 3] if PROBES > 0 else 0.0
+        out[end + k] = out[STATE * k + 3] if PROBED > 0 else 0.0
     while ints[NEXT] < ints[STOP]:
         for i in range(end):
             out[i] = 0.0
@@ -104,33 +104,20 @@ def needed(states: Any, width: int, count: int, end: int) -> float:
     return need
 
 
-class Climb(NamedTuple):
-    """All that an adaptive kernel is made of: the means, and how to probe the integrand if at
-    all."""
-
-    means: Recipe
-    seen: Any
-
-    def _probing(self) -> Recipe:
-        return self.means._replace(points="counted", integrands=(self.seen,))
-
-    def key(self) -> str:
-        """Hash of everything the machine code depends on."""
-        content = kernel.fingerprint(self.means.layout)
-        content.add((self.means.key(), self._probing().key() if self.seen else "", climb))
-        return content.hexdigest()
-
-    def parts(self) -> Hashable:
-        """Those of the means, and the probe."""
-        return self.means.parts(), self.seen
-
-    def assemble(self, special: Specialiser) -> Any:
-        """The template `climb` with everything bound."""
-        means = special.compiled(self.means.assemble(special))
-        highest = special.compiled(self._probing().assemble(special)) if self.seen else means
-        probes = charted.PROBES if self.seen else 0
-        bound = {"MOMENTS": means, "HIGHEST": highest, "PROBES": probes}
-        return special.clone(climb, {**bound, "CHANNELS": self.means.channels})
+def kernel_of(
+    model: str, points: str, mean: Integrand, probe: Integrand | None, layout: Layout
+) -> Kernel:
+    """The kernel of an adaptive estimate: a mean, and how to probe its integrand if at all."""
+    means = template_of(points, [mean], layout)
+    highest = template_of("counted", [probe], layout) if probe else means
+    return kernel(
+        model,
+        climb,
+        MOMENTS=means,
+        HIGHEST=highest,
+        PROBED=PROBES if probe else 0,
+        CHANNELS=len(layout.places),
+    )
 
 
 @functools.cache
@@ -141,4 +128,3 @@ def factors(replicates: int, looks: int) -> tuple[float, ...]:
         student.quantile(0.5 * LEVEL * 0.5 ** (k + 1), replicates - 1) / scale
         for k in range(looks)
     )
-

@@ -4,29 +4,22 @@ from __future__ import annotations
 import functools
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.compile.kernel import compiled
-from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.compile.kernel import Kernel
+from montecarlo_brdf.compile.layout import Layout, pack
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.estimate import charted, moments
-from montecarlo_brdf.estimate.looks import Climb
-from montecarlo_brdf.estimate.recipe import Recipe
-from montecarlo_brdf.estimate.samplers import (
-    charts_of,
-    integrand,
-    integrand_name,
-    query,
-    samplers_of,
-    suited_to,
-)
+from montecarlo_brdf.estimate import looks, moments, quantity
+from montecarlo_brdf.estimate.quantity import Integrand, Quantity
+from montecarlo_brdf.estimate.samplers import charts_of, integrand, query, samplers_of
 from montecarlo_brdf.estimate.subject import functions_of, identity_of
 from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.sampling.points import SETS
 
 
 class Method(NamedTuple):
     """A sampler or chart, a point set, and why they were picked."""
 
-    sampler: str
+    sampler: Sampler
     points: str
     why: str
 
@@ -35,13 +28,23 @@ class Setting(NamedTuple):
     """All that estimating a model with one parameter set needs, whatever the direction."""
 
     method: Method
-    means: Recipe
-    entry: Any  # the kernel of looks
+    mean: Integrand
+    layout: Layout
+    looks: Kernel
     probed: bool
     numbers: tuple[float, ...]
     width: float  # of the lobe
     identity: str
     model: str
+
+    @property
+    def channels(self) -> int:
+        """Number of parameter sets."""
+        return len(self.layout.places)
+
+    def means(self) -> Kernel:
+        """The kernel of the mean alone."""
+        return moments.kernel_of(self.model, self.method.points, [self.mean], self.layout)
 
 
 @functools.lru_cache(maxsize=1024)
@@ -49,13 +52,14 @@ def methods(model: Model) -> list[Method]:
     """What to try, best first."""
     found = []
     for chart in charts_of(model)[:1]:
-        what = "kinks" if chart == "panels" else f"{chart.replace('_', '-')} lobe"
+        kinked = chart is Sampler.PANELS
+        what = "kinks" if kinked else f"{chart.replace('_', '-')} lobe"
         found.append(Method(chart, "lattice", f"the model declares its {what}"))
     if not found:
-        found.append(Method("cosine", "lattice", "the model declares no lobe and no kinks"))
-    if "own" in samplers_of(model):
-        found.append(Method("own", "sobol", "its own sampler sees every lobe"))
-    return [*found, Method("cosine", "sobol", "nothing better fits")]
+        found.append(Method(Sampler.COSINE, "lattice", "the model declares no lobe and no kinks"))
+    if Sampler.OWN in samplers_of(model):
+        found.append(Method(Sampler.OWN, "sobol", "its own sampler sees every lobe"))
+    return [*found, Method(Sampler.COSINE, "sobol", "nothing better fits")]
 
 
 def given(model: Model, sampler: str, points: str) -> Method:
@@ -65,7 +69,7 @@ def given(model: Model, sampler: str, points: str) -> Method:
         raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
     if points not in SETS:
         raise UserError(unknown("point set", points, SETS))
-    return Method(sampler, points, "as given")
+    return Method(Sampler(sampler), points, "as given")
 
 
 @functools.lru_cache(maxsize=256)
@@ -78,15 +82,16 @@ def told(method: Method, rejected: tuple[str, ...] = ()) -> str:
 def prepare(model: Model, p: Any, kind: Any, method: Method) -> Setting:
     """Kernel and numbers of a case. `kind` keeps equal tuples of different variants apart."""
     layout, numbers = pack([model.prepared(c) for c in channels(p)], moments.QUERY)
-    average = suited_to(method.points, integrand(integrand_name(model, "albedo", method.sampler)))
-    means = Recipe(method.points, (average,), functions_of(model), layout)
-    seen = getattr(charted, f"seen_{method.sampler}", None)
+    mean = integrand(model, Quantity.ALBEDO, method.sampler)
+    mean = mean.for_lattice() if method.points == "lattice" else mean
+    probe = quantity.probe_of(method.sampler, functions_of(model))
     identity = (method.points, *identity_of(model, p), "albedo")
     return Setting(
         method,
-        means,
-        compiled(model.name, Climb(means, seen)),
-        seen is not None,
+        mean,
+        layout,
+        looks.kernel_of(model.name, method.points, mean, probe, layout),
+        probe is not None,
         tuple(numbers),
         query(model, p, (0.0, 0.0, 1.0))[3],
         "\x1f".join((*identity, method.sampler)),

@@ -6,12 +6,16 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from montecarlo_brdf.compile.bind import bound
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.quantity import Integrand
+from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.estimate.subject import Subject, functions_of
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.points import DIMENSIONS
 from montecarlo_brdf.scene import integrands, skies
 from montecarlo_brdf.scene.methods import unscaled
 from montecarlo_brdf.scene.plan import ScenePlan, Work
@@ -139,20 +143,21 @@ def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str |
         "SKY_SAMPLE": sky.sample or integrands.cosine_sample,
         "SKY_PDF": sky.pdf or integrands.cosine_pdf,
     }
-    name = "weighted" if work.method == "own" and weighted(model) else work.method
+    template = bound(integrands.BY_METHOD[method_name(work)], **functions)
+    mean = Integrand(template, (), None, DIMENSIONS, periodic=False)
     subject = Subject(
         (model.name, *model.picks.values(), *(f"{p!r} {skies.identity(s)}" for p, s in work.sets)),
-        functions,
         [Lit(model.prepared(p), shape) for p, shape in work.sets],
     )
-    rows = evaluate(subject, wo, [getattr(integrands, name)], sampling, ("radiance", work.method))
+    rows = evaluate(subject, wo, [mean], sampling, ("radiance", work.method))
     sets = zip(rows, work.sets, strict=True)
     return [(row[0], reason_unfit(work, row[0], p, shape, wo)) for row, (p, shape) in sets]
 
 
-def weighted(model: Model) -> bool:
-    """Whether the model's sampler must be used with the weight that it returns."""
-    return model.pdf is None and probe.returns_weight(model)
+def method_name(work: Work) -> str:
+    """Its integrand: that of the weight where the sampler has no pdf."""
+    alone = work.method == "own" and work.model.pdf is None and weighted(work.model)
+    return "weighted" if alone else work.method
 
 
 def reason_unfit(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> str | None:

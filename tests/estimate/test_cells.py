@@ -9,8 +9,7 @@ import montecarlo_brdf as mb
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks._cells import CELLS, COARSE, Cells
 from montecarlo_brdf.checks.sampling import judged
-from montecarlo_brdf.estimate import counting, tabulating
-from montecarlo_brdf.estimate.counting import COLUMNS, ROWS
+from montecarlo_brdf.estimate.cells import COLUMNS, ROWS, placed, tabulated
 from montecarlo_brdf.estimate.pointwise import Pointwise
 
 
@@ -32,7 +31,7 @@ def test_compiled_code_finds_the_same_cells(theta: float) -> None:
     cells = Cells(Case(model, model.parameters(alpha=0.1), [theta], phi_o_deg=30.0), theta, COARSE)
     w, _ = Pointwise(model, cells.p).sample(cells.wo, np.random.default_rng(3).random((4000, 3)))
     w = w[w[:, 2] > 0.0]
-    found = counting.placed(model, cells.p, cells.cut, w)
+    found = placed(model, cells.cut, w)
     assert np.mean(found == by_numpy(cells, w)) > 0.999  # the rest lie on edges, to rounding
 
 
@@ -54,9 +53,9 @@ def test_compiled_code_tabulates_the_same_density(theta: float) -> None:
     x, b = np.meshgrid((np.arange(nx) + 0.5) / nx, (np.arange(nb) + 0.5) / nb, indexing="ij")
     wi, area = cells.coordinates.directions(x.ravel(), b.ravel())
     expected = Pointwise(model, cells.p).pdf(cells.wo, wi) * area / (nx * nb)
-    found, _ = tabulating.tabulated(model, cells.p, cells.place, COARSE)
+    found, _ = tabulated(model, cells.p, cells.coordinates.place, COARSE)
     assert np.allclose(found, expected, rtol=1e-9, atol=0.0)
-    _, wi = tabulating.tabulated(model, cells.p, cells.place, COARSE, key=5)
+    _, wi = tabulated(model, cells.p, cells.coordinates.place, COARSE, key=5)
     x, b = cells.coordinates.coordinates(wi)
     square = np.arange(nx * nb)
     assert np.mean((x * nx).astype(int) == square // nb) > 0.999  # each in its own square
