@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from columns import in_precision
 
 from montecarlo_brdf.stability import arithmetic, ladder
-from montecarlo_brdf.stability.batch import over_points
-from montecarlo_brdf.stability.elementary import Rebound
 from montecarlo_brdf.stability.specimens import (
     beckmann_by_angle,
     biased_ggx,
@@ -25,12 +24,6 @@ from montecarlo_brdf.stability.specimens import (
 SINGLE, DOUBLE, HALF = (arithmetic.precision(n) for n in ("float32", "float64", "float16"))
 #: Cosines of angles from 0 to 90 degrees, dense near the normal.
 COSINES = np.cos(np.r_[0.0, np.geomspace(1e-5, math.pi / 2, 40_000)])
-
-
-def in_precision(function: Callable[..., Any], at: arithmetic.Arithmetic, *columns: Any) -> Any:
-    """A function of numbers, applied to columns of numbers in a precision."""
-    columns = tuple(at.array(c) for c in columns)
-    return over_points(columns, Rebound(at).clone(function, {}), at)[0]
 
 
 def worst(function: Callable[..., Any], alpha: float) -> float:
