@@ -8,9 +8,16 @@ from collections.abc import Iterable
 
 
 class UserError(Exception):
-    """A mistake in what was asked for: unknown name, bad value, missing file."""
+    """A mistake in what was asked for: unknown name, bad value, missing file.
+
+    about: the name whose value is wrong, where the mistake is in one.
+    """
 
     exit_code = 2
+
+    def __init__(self, sentence: str = "", about: str | None = None) -> None:
+        super().__init__(sentence)
+        self.about = about
 
 
 class ModelError(UserError):

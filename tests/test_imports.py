@@ -15,7 +15,7 @@ NAME = PACKAGE.name
 #: A part may import itself, what stands before it in its row, and errors.
 FLOW = (
     ("errors",),
-    ("bits", "files", "special", "student", "vectors"),
+    ("bits", "files", "special", "student", "toml", "vectors"),
     ("compile", "statistics"),
     ("sampling",),
     ("loading", "mixture", "model", "model_file", "models"),

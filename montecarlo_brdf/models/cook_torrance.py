@@ -12,7 +12,7 @@ height-correlated); kelemen (G = mu_i mu_o/(h.v)^2); implicit (G = mu_i mu_o); n
 schlick_k_direct and schlick_k_ibl.
 fresnel: one, schlick (f0), dielectric (eta >= 1), conductor (eta, k).
 Source: Cook & Torrance 1982; Walter et al. 2007; Heitz 2014; Kelemen & Szirmay-Kalos 2001; Schlick
-1994; Karis 2013. Blinn-Phong's exact Lambda: formulas.md, section 6.
+1994; Karis 2013. Blinn-Phong's exact Lambda: `_smith`.
 Violates: energy conservation without masking (without bound at grazing), with walter for
 blinn_phong (1.25 at grazing, n = 1; 1.38 with walter_correlated), and when divided by pi
 (4/pi = 1.273 for smooth surfaces).

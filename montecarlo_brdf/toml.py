@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+import contextlib
+import itertools
 import math
+import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Self, TypeGuard
 
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.scene.lines import Path_, line_of
-from montecarlo_brdf.vectors import Vec, from_degrees
 
-REQUIRED: Any = object()
+Keys = tuple[str | int, ...]  # from the top of the file down; numbers count [[tables]]
+
+REQUIRED = object()
+HEADER = re.compile(r"^\s*(\[\[?)\s*([\w.\-\"' ]+?)\s*\]\]?\s*(#.*)?$")
+KEY = re.compile(r"^\s*([\w.\-\"']+)\s*=")
+
+
+class FileError(UserError):
+    """A mistake in a file; its sentence begins with the file and the line."""
 
 
 def parse(path: Path) -> tuple[dict[str, Any], str]:
@@ -24,7 +33,7 @@ def parse(path: Path) -> tuple[dict[str, Any], str]:
         raise UserError(f"cannot read {path}: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
         raise UserError(f"{path} is not a TOML file: it is not text") from error
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # TOMLDecodeError, or a whole number of too many digits
         raise UserError(f"{path} is not a TOML file: {error}") from error
     except RecursionError as error:
         raise UserError(f"{path} is nested too deeply") from error
@@ -33,17 +42,27 @@ def parse(path: Path) -> tuple[dict[str, Any], str]:
 class Table:
     """One table of the file; every key must be taken, or `done` complains about it."""
 
-    def __init__(self, file: Path, text: str, data: Mapping[str, Any], path: Path_ = ()) -> None:
+    def __init__(self, file: Path, text: str, data: Mapping[str, Any], path: Keys = ()) -> None:
         self.file, self.text, self.data, self.path = file, text, data, path
         self._known: dict[str, None] = {}
-        self.wavelengths: tuple[float, ...] | None = None
 
-    def error(self, sentence: str, key: str | None = None) -> UserError:
-        """A UserError that begins with the place."""
+    def error(self, sentence: str, key: str | None = None) -> FileError:
+        """An error that begins with the place."""
         line = line_of(self.text, (*self.path, key) if key else self.path)
-        return UserError(f"{self.file}{f', line {line}' if line else ''}: {sentence}")
+        return FileError(f"{self.file}{f', line {line}' if line else ''}: {sentence}")
 
-    def take(self, key: str, default: Any = REQUIRED) -> Any:
+    @contextlib.contextmanager
+    def at(self, key: str) -> Iterator[None]:
+        """Mistakes in a block are those of `key`, or of the one that they are about."""
+        try:
+            yield
+        except FileError:
+            raise
+        except UserError as error:
+            about = error.about if error.about in self.data else key
+            raise self.error(str(error), about) from error
+
+    def take(self, key: str, default: object = REQUIRED) -> Any:
         """The raw value of a key."""
         self._known[key] = None
         if key in self.data:
@@ -71,15 +90,15 @@ class Table:
                 raise self.error(unknown(f"key of {self.title()}", key, self._known), key)
 
     def number(
-        self, key: str, default: Any = REQUIRED, low: float = -math.inf, high: float = math.inf
+        self, key: str, default: object = REQUIRED, low: float = -math.inf, high: float = math.inf
     ) -> float:
         """A finite number between low and high."""
         value = self.take(key, default)
-        if not (_is_number(value) and low <= value <= high):
+        if not (is_number(value) and low <= value <= high):
             raise self.error(f"{key} must be {_range(low, high)}, not {_shown(value)}", key)
         return float(value)
 
-    def text_of(self, key: str, default: Any = REQUIRED) -> str:
+    def text_of(self, key: str, default: object = REQUIRED) -> str:
         """A string."""
         value = self.take(key, default)
         if not isinstance(value, str):
@@ -93,88 +112,45 @@ class Table:
             raise self.error(f"{key} must be true or false, not {_shown(value)}", key)
         return value
 
-    def choice(self, key: str, allowed: Iterable[str], default: Any = REQUIRED) -> str:
+    def choice(self, key: str, allowed: Collection[str], default: object = REQUIRED) -> str:
         """One of some words."""
-        names = list(allowed)
         value = self.take(key, default)
-        if value not in names:
-            raise self.error(unknown(key, value, names), key)
+        if value not in list(allowed):  # a list: the value may be one that no set takes
+            raise self.error(unknown(key, value, allowed), key)
         return str(value)
 
     def numbers(
-        self, key: str, count: int | None = None, default: Any = REQUIRED
+        self, key: str, count: int | None = None, default: object = REQUIRED
     ) -> tuple[float, ...]:
         """A list of finite numbers; one number counts as a list of one."""
         value = self.take(key, default)
         row = value if isinstance(value, (list, tuple)) else [value]
-        if not row or not all(map(_is_number, row)) or (count and len(row) != count):
+        if not row or not all(map(is_number, row)) or (count and len(row) != count):
             wanted = f"a list of {count} numbers" if count else "a number or a list of numbers"
             raise self.error(f"{key} must be {wanted}, not {_shown(value)}", key)
         return tuple(float(v) for v in row)
 
-    def direction(self, key: str, default: Any = REQUIRED) -> Vec:
-        """A unit vector from [x, y, z], or from {tilt_deg, azimuth_deg}."""
-        value = self.take(key, default)
-        if isinstance(value, dict):
-            table = self.table(key)
-            found = from_degrees(
-                table.number("tilt_deg", 0.0, 0.0, 180.0), table.number("azimuth_deg", 0.0)
-            )
-            table.done()
-            return found
-        x, y, z = self.numbers(key, 3, default)
-        size = math.hypot(x, y, z)
-        if size == 0.0:
-            raise self.error(f"{key} has no direction: all three numbers are 0", key)
-        return x / size, y / size, z / size
-
-    def colour(
-        self, key: str, default: Any = REQUIRED, low: float = 0.0
-    ) -> float | tuple[float, ...]:
-        """A number, one per channel, or (wavelength, value) pairs at the scene's wavelengths."""
-        value = self.take(key, default)
-        if isinstance(value, (list, tuple)) and value and isinstance(value[0], (list, tuple)):
-            found: Any = self._spectrum(key, value)
-        elif isinstance(value, (list, tuple)):
-            found = self.numbers(key, None, default)
-        else:
-            found = self.number(key, default)
-        row = found if isinstance(found, tuple) else (found,)
-        if min(row) < low:
-            raise self.error(f"{key} must be at least {low:g}, not {min(row):g}", key)
-        return found
-
-    def _spectrum(self, key: str, value: Any) -> tuple[float, ...]:
-        from montecarlo_brdf.scene.spectrum import interpolated, pairs
-
-        if self.wavelengths is None:
-            raise self.error(f"{key} is a spectrum: the scene needs [spectrum] wavelengths", key)
-        try:
-            return interpolated(pairs(value), self.wavelengths)
-        except UserError as error:
-            raise self.error(f"{key}: {error}", key) from None
-
-    def table(self, key: str, default: Any = REQUIRED) -> Table:
+    def table(self, key: str, default: object = REQUIRED) -> Self:
         """A table below this one."""
         value = self.take(key, default)
         if not isinstance(value, dict):
             raise self.error(f"{key} must be a table, not {_shown(value)}", key)
-        return self._below(value, (*self.path, key))
+        return self.below(value, key)
 
-    def tables(self, key: str) -> list[Table]:
+    def tables(self, key: str) -> list[Self]:
         """An array of tables below this one."""
         value = self.take(key, [])
         if not isinstance(value, list) or not all(isinstance(v, dict) for v in value):
             raise self.error(f"{key} must be [[{key}]] tables, not {_shown(value)}", key)
-        return [self._below(v, (*self.path, key, k)) for k, v in enumerate(value)]
+        return [self.below(v, key, k) for k, v in enumerate(value)]
 
-    def _below(self, data: Mapping[str, Any], path: Path_) -> Table:
-        table = Table(self.file, self.text, data, path)
-        table.wavelengths = self.wavelengths
-        return table
+    def below(self, data: Mapping[str, Any], *keys: str | int) -> Self:
+        """A table of the same kind that stands under `keys` of this one."""
+        return type(self)(self.file, self.text, data, (*self.path, *keys))
 
 
-def _is_number(value: Any) -> bool:
+def is_number(value: object) -> TypeGuard[float]:
+    """Whether it is a finite number, and not true or false."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
     try:
@@ -191,6 +167,50 @@ def _range(low: float, high: float) -> str:
     return f"a number in [{low:g}, {high:g}]"
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def line_of(text: str, path: Keys) -> int | None:
+    """The line of a key or table, which tomllib does not tell.
+
+    It is that of the longest part of `path` that stands in the text.
+    """
+    best, at = 0, None
+    here: Keys = ()
+    counts: dict[str, int] = {}
+    for number, line in enumerate(text.splitlines(), start=1):
+        if header := HEADER.match(line):
+            name = header.group(2)
+            here = _names(name)
+            if header.group(1) == "[[":
+                counts[name] = counts.get(name, -1) + 1
+                here = (*here, counts[name])
+            found = here
+        elif key := KEY.match(line):
+            found = (*here, *_names(key.group(1)))
+        else:
+            continue
+        shared = _shared(_flat(found, counts), path)
+        if shared > best and shared in (len(found), len(path)):
+            best, at = shared, number
+    return at
+
+
+def _names(dotted: str) -> tuple[str, ...]:
+    return tuple(part.strip(" \"'") for part in dotted.split("."))
+
+
+def _flat(found: Keys, counts: Mapping[str, int]) -> Keys:
+    """A table below an array of tables belongs to its latest element."""
+    name = str(found[0])
+    if name in counts and (len(found) < 2 or not isinstance(found[1], int)):
+        return (name, counts[name], *found[1:])
+    return found
+
+
+def _shared(a: Keys, b: Keys) -> int:
+    """How many keys are the same from the top."""
+    same = (x == y for x, y in zip(a, b, strict=False))
+    return sum(1 for _ in itertools.takewhile(bool, same))

@@ -1,27 +1,50 @@
-"""Spectra as (wavelength, value) pairs, piecewise linear; wavelengths in nanometres.
+"""Colours, one number per channel; spectra, (wavelength, value) pairs, piecewise linear.
 
-Reflectance is at one wavelength; albedo over a band is whole-band: int rho E dl / int E dl, the
-radiosity over the irradiance of an illuminant E. Products of two linear pieces are integrated
-exactly (Simpson's rule on the union of both sets of wavelengths).
+Wavelengths are in nanometres. Reflectance is at one wavelength; albedo over a band is whole-band:
+int rho E dl / int E dl, the radiosity over the irradiance of an illuminant E. Products of two
+linear pieces are integrated exactly (Simpson's rule on the union of both sets of wavelengths).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import NamedTuple, TypeVar
 
-from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.toml import is_number
 
+T = TypeVar("T")
+Colour = tuple[float, ...]  # one number per channel of a scene, or one for all of them
 Pairs = tuple[tuple[float, float], ...]
 
 
-def pairs(value: Any) -> Pairs:
-    """Checked pairs: finite, wavelengths positive and increasing, values not negative."""
+def spread(values: tuple[T, ...], count: int) -> tuple[T, ...]:
+    """One value per channel."""
+    return values * count if len(values) == 1 else values
+
+
+class Band(NamedTuple):
+    """The wavelengths that stand for channels, and the light they are weighted with."""
+
+    wavelengths: tuple[float, ...]
+    illuminant: Pairs
+
+    @property
+    def shares(self) -> list[float]:
+        """The weight of every wavelength in the band albedo: that of a spectrum that is 1 there."""
+        units = (tuple((w, float(w == one)) for w in self.wavelengths) for one in self.wavelengths)
+        return [band_albedo(unit, self.illuminant) for unit in units]
+
+
+def pairs(value: object) -> Pairs:
+    """Checked pairs: finite, wavelengths positive and increasing, values not negative.
+
+    Raises UserError for anything else.
+    """
     rows = []
-    for row in value:
-        ok = isinstance(row, (list, tuple)) and len(row) == 2
-        if not ok or not all(isinstance(v, (int, float)) and math.isfinite(v) for v in row):
+    for row in value if isinstance(value, (list, tuple)) else (value,):
+        if not isinstance(row, (list, tuple)) or len(row) != 2 or not all(map(is_number, row)):
             raise UserError(f"a spectrum is a list of [wavelength, value] pairs, not {row!r}")
         rows.append((float(row[0]), float(row[1])))
     wavelengths = [w for w, _ in rows]
@@ -37,7 +60,7 @@ def pairs(value: Any) -> Pairs:
 
 
 def at(spectrum: Pairs, wavelength: float) -> float:
-    """The value at a wavelength between the first and the last."""
+    """The value at a wavelength; UserError if it is not between the first and the last."""
     first, last = spectrum[0][0], spectrum[-1][0]
     if not first <= wavelength <= last:
         raise UserError(
@@ -50,7 +73,7 @@ def at(spectrum: Pairs, wavelength: float) -> float:
     return spectrum[0][1]
 
 
-def interpolated(spectrum: Pairs, wavelengths: Sequence[float]) -> tuple[float, ...]:
+def interpolated(spectrum: Pairs, wavelengths: Sequence[float]) -> Colour:
     """Values at some wavelengths."""
     return tuple(at(spectrum, w) for w in wavelengths)
 
@@ -85,8 +108,6 @@ def illuminant_table(name: str, first: float, last: float) -> Pairs:
             "or give [wavelength, value] pairs"
         ) from error
     if name not in colour.SDS_ILLUMINANTS:
-        from montecarlo_brdf.errors import unknown
-
         raise UserError(unknown("illuminant", name, sorted(colour.SDS_ILLUMINANTS)))
     table = colour.SDS_ILLUMINANTS[name]
     return tuple(zip(map(float, table.wavelengths), map(float, table.values), strict=True))
