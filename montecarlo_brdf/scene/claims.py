@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from montecarlo_brdf.compile.reach import plain
+from montecarlo_brdf.compile.bind import plain
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
