@@ -42,14 +42,15 @@ SMALLEST = 0.05  # albedo below which agreement is absolute
 def claims(case: Case) -> Iterator[Claim]:
     """Two per angle and channel, and for a mixture that its weights add up to at most 1."""
     for theta in case.theta_o_deg:
-        yield from _at_angle(case, theta)
+        yield from at_angle(case, theta)
     if case.model.albedo and searchable(case):
         yield inside(case, "A elsewhere", lambda mu, p: float(case.model.albedo(mu, p)), "albedo()")
     for k, one in enumerate(case.sets if case.model.terms else []):
         yield _weights(case, one, {"channel": k} if len(case.sets) > 1 else {})
 
 
-def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
+def at_angle(case: Case, theta: float) -> Iterator[MeanClaim]:
+    """A equals its reference, and A <= 1; per channel."""
     measured = functools.cache(functools.partial(measure, case, theta))
     for k, one in enumerate(case.sets):
         where = case.where(theta_o_deg=theta)

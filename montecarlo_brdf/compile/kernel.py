@@ -96,12 +96,14 @@ class Kernel:
             except Exception as error:  # other releases of numba break in ways of their own
                 if compiler.is_mistake(error):
                     raise self._mistake(error) from error
-                if not isinstance(error, compiler.NeedsRuntime):
-                    _tell(error)
+                ours = error
             try:
-                return compiler.by_numba(self.assembled(compiler.compiled))
+                entry = compiler.by_numba(self.assembled(compiler.compiled))
             except Exception as error:
                 raise self._mistake(error) from error
+            if not isinstance(ours, compiler.NeedsRuntime):
+                _tell(ours)
+            return entry
 
     def _ours(self) -> native.Entry:
         image = cache.read(self.key)

@@ -51,6 +51,11 @@ class Measurement(NamedTuple):
         """Half the width of the interval that misses the truth with probability `level` at most."""
         return self.estimate.half_width(level) if self.bound is None else self.bound
 
+    def times(self, factor: float) -> Measurement:
+        """The measurement of `factor` > 0 times the number."""
+        bound = None if self.bound is None else factor * self.bound
+        return self._replace(estimate=self.estimate.times(factor), bound=bound)
+
 
 class Unfit(NamedTuple):
     """Why an estimate must not be believed, and how many samples would cure it, 0 if unknown."""

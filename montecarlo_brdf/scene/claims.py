@@ -12,8 +12,10 @@ import math
 import types
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks import furnace
 from montecarlo_brdf.compile.bind import plain
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.plan import Plan
@@ -30,6 +32,7 @@ from montecarlo_brdf.model import Property
 from montecarlo_brdf.scene import radiance, standard, truth
 from montecarlo_brdf.scene.plan import Angles, ScenePlan
 from montecarlo_brdf.scene.scene import Scene
+from montecarlo_brdf.scene.skies import Constant
 from montecarlo_brdf.scene.standard import Standard
 from montecarlo_brdf.scene.surface import Lobe, Surface
 from montecarlo_brdf.vectors import Vec, from_degrees
@@ -48,9 +51,13 @@ def claims(scene: Scene, plan: ScenePlan, tolerance: float | None = None) -> Ite
     for view, evaluated in plan.views.items():
         measure = _radiance(scene, plan, from_degrees(*evaluated))
         for k in range(scene.channels):
+            where = place(scene, view, k)
+            if lone := _furnace(plan, evaluated, k, tolerance):
+                yield replace(lone.agreement, quantity="L_o", where=where)
+                continue
             expected = truth.reference(plan.scene, from_degrees(*view), k)
             channel = functools.partial(_channel, measure, k)
-            yield _equal("L_o", place(scene, view, k), expected, tolerance, channel)
+            yield _equal("L_o", where, expected, tolerance, channel)
 
 
 def _equal(
@@ -93,15 +100,19 @@ def _channel(measure: Measure, k: int, sampling: Plan) -> list[Measurement]:
 
 
 def energy_claims(
-    scene: Scene, furnace: ScenePlan, tolerance: float | None, reverse: bool = False
+    scene: Scene, plan: ScenePlan, tolerance: float | None, reverse: bool = False
 ) -> Iterator[MeanClaim]:
     """A <= 1 at every polar angle of the view, or R <= 1 with the light there."""
     angle, quantity = ("theta_i_deg", "R <= 1") if reverse else ("theta_o_deg", "A <= 1")
-    for view, measure in _albedos(furnace):
+    for view, measure in _albedos(plan):
         for k in range(scene.channels):
+            where = place(scene, view, k, angle)
+            if not reverse and (lone := _furnace(plan, plan.views[view], k, tolerance)):
+                yield replace(lone.energy, where=where, unit=_units(scene, k))
+                continue
             yield MeanClaim(
                 quantity,
-                place(scene, view, k, angle),
+                where,
                 Bound.AT_MOST,
                 Reference(1.0, 0.0, Kind.BOUND, "energy conservation"),
                 BOUND_TOLERANCE if tolerance is None else tolerance,
@@ -111,12 +122,58 @@ def energy_claims(
             )
 
 
-def _albedos(furnace: ScenePlan) -> Iterator[tuple[Angles, Measure]]:
+class Furnace(NamedTuple):
+    """What `furnace` asks of a lobe that alone is seen, under nothing but a constant sky."""
+
+    agreement: MeanClaim
+    energy: MeanClaim
+
+
+def _furnace(
+    plan: ScenePlan, view: Angles, channel: int, tolerance: float | None
+) -> Furnace | None:
+    """The same question has one answer: the furnace's claims times the light, where a scene is one;
+    None where it is more, or where its integrand is constant and needs no samples."""
+    scene = plan.scene
+    lone = len(plan.works) == len(scene.lobes) == 1 and plan.skip and not plan.lights
+    if not lone or any(scene.emission) or any(scene.ambient) or scene.sky is None:
+        return None
+    (lobe,), factor = scene.lobes, scene.lobes[0].weights[channel] * scene.sky.scales[channel]
+    sampled = plan.works[0].method != "one value" and factor > 0.0
+    if not sampled or not isinstance(scene.sky.shapes[channel], Constant):
+        return None
+    at = ("furnace", view, channel, tolerance)
+    if at not in plan.known:
+        model, p = lobe.model, lobe.sets[channel]
+        case = Case(model, p, [view[0]], view[1], tolerance=tolerance)
+        plan.known[at] = Furnace(*(_times(factor, c) for c in furnace.at_angle(case, view[0])))
+    return plan.known[at]
+
+
+def _times(factor: float, claim: MeanClaim) -> MeanClaim:
+    """A claim about `factor` times what it is about; a bound stays what it is."""
+    if factor == 1.0:
+        return claim
+    scale = factor if claim.bound is Bound.EQUAL else 1.0
+    expected, last = claim.expected, claim.fallback
+    if expected is not None:
+        error = expected.error * scale
+        expected = expected._replace(value=expected.value * scale, error=error)
+    return replace(
+        claim,
+        expected=expected,
+        tolerance=claim.tolerance * scale,
+        measure=lambda plan: [m.times(factor) for m in claim.measure(plan)],
+        fallback=(lambda seed: last(seed).times(factor)) if last else None,
+    )
+
+
+def _albedos(plan: ScenePlan) -> Iterator[tuple[Angles, Measure]]:
     """Every polar angle of the view at its first azimuth, and the albedos there."""
-    phi = furnace.scene.view.phi_o_deg[0]
-    for theta in dict.fromkeys(theta for theta, _ in furnace.views):
-        wo = from_degrees(*furnace.views[theta, phi])
-        yield (theta, phi), functools.partial(_remembered, furnace, wo)
+    phi = plan.scene.view.phi_o_deg[0]
+    for theta in dict.fromkeys(theta for theta, _ in plan.views):
+        wo = from_degrees(*plan.views[theta, phi])
+        yield (theta, phi), functools.partial(_remembered, plan, wo)
 
 
 def _units(scene: Scene, channel: int) -> dict[str, float]:
@@ -129,14 +186,14 @@ def _units(scene: Scene, channel: int) -> dict[str, float]:
     return {name: value} if value else {}
 
 
-def band_claims(scene: Scene, furnace: ScenePlan, tolerance: float | None) -> Iterator[MeanClaim]:
+def band_claims(scene: Scene, plan: ScenePlan, tolerance: float | None) -> Iterator[MeanClaim]:
     """Albedo over the band: int A E dl / int E dl, linear in the albedos at the wavelengths."""
     if scene.band is None:
         return
     shares = scene.band.shares
-    for view, measure in _albedos(furnace):
+    for view, measure in _albedos(plan):
         wo = from_degrees(*view)
-        rows = [truth.reference(furnace.scene, wo, k) for k in range(scene.channels)]
+        rows = [truth.reference(plan.scene, wo, k) for k in range(scene.channels)]
         value = math.fsum(s * r.value for s, r in zip(shares, rows, strict=True))
         error = math.fsum(s * r.error for s, r in zip(shares, rows, strict=True))
         expected = Reference(value, error + 1e-15 * abs(value), rows[0].kind, rows[0].source)

@@ -6,10 +6,8 @@ it. `skip=False` gives the long way, every lobe, channel, light and view for its
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.colour import Colour
@@ -58,7 +56,7 @@ class ScenePlan(NamedTuple):
     views: dict[Angles, Angles]  # every view, and the one that is evaluated for it
     items: list[Item]
     skip: bool
-    known: dict[tuple[Vec, Plan], list[Measurement]]  # by view and sampling, as they are measured
+    known: dict[tuple[object, ...], Any]  # what was measured, by view and sampling
 
 
 def make(scene: Scene, skip: bool = True, sphere: bool = False) -> ScenePlan:
