@@ -115,7 +115,8 @@ class Model:
             if category not in self.choices:
                 raise UserError(unknown(f"choice of model {self.name}", category, self.choices))
             if pick not in self.choices[category]:
-                raise UserError(unknown(category, pick, self.choices[category]))
+                options = self.choices[category]
+                raise UserError(unknown(category, pick, options), about=category)
         return self.rebuild({**self.picks, **picks}) if self.rebuild else self
 
     def parameters(self, **values: Any) -> Any:
@@ -162,7 +163,8 @@ class Model:
             number = math.nan
         if isinstance(value, bool) or not (math.isfinite(number) and low <= number <= high):
             name = self.labels.get(name, name)
-            raise UserError(f"{name} of model {self.name} must be {allowed}, not {value!r}")
+            sentence = f"{name} of model {self.name} must be {allowed}, not {value!r}"
+            raise UserError(sentence, about=name)
         return number
 
 

@@ -15,11 +15,11 @@ from montecarlo_brdf.cli._values import numbers
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.sampling.points import SETS
-from montecarlo_brdf.scene.toml import Path_, Table, parse
+from montecarlo_brdf.toml import Keys, Table, parse
 
 FILE = "brdf-check.toml"
 PYPROJECT = "pyproject.toml"
-INSIDE: Path_ = ("tool", "brdf-check")
+INSIDE: Keys = ("tool", "brdf-check")
 #: may stand at the top and in each [[models]]
 SHARED = ("checks", "theta_o", "phi_o", "points", "samples", "seed", "tolerance", "tolerances")
 
@@ -43,9 +43,6 @@ class Section(Table):
             return super().title()
         return f"[{'.'.join(str(part) for part in self.path if not isinstance(part, int))}]"
 
-    def _below(self, data: Mapping[str, Any], path: Path_) -> Section:
-        return Section(self.file, self.text, data, path)
-
 
 def find(folder: Path) -> Path | None:
     """The file that speaks for a folder: in it, or in the nearest folder above it."""
@@ -68,7 +65,7 @@ def speaks(path: Path) -> bool:
 def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
     """The jobs of a file; `overrides` (fields of Job) stand above what it says."""
     data, text = parse(path)
-    at: Path_ = INSIDE if path.name == PYPROJECT else ()
+    at: Keys = INSIDE if path.name == PYPROJECT else ()
     for name in at:
         data = data.get(str(name), {})
     top = Section(path, text, data, at)

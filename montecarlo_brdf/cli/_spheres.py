@@ -26,7 +26,7 @@ def scenes_of(options: dict[str, Any]) -> tuple[list[Case], int]:
     """All spheres, and how many stand in a row: the values of the last parameter that varies."""
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._values import axes, parameter_sets
-    from montecarlo_brdf.scene.make import scene_of
+    from montecarlo_brdf.scene.read import scene_of
 
     path, spec, sky = options["scene"], options["spec"], options["environment"]
     if path is not None:

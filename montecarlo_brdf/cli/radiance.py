@@ -102,8 +102,7 @@ def scene_from(options: dict[str, Any]) -> Any:
     """The scene of a file, or of --model and --environment."""
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._values import numbers, parameter_sets
-    from montecarlo_brdf.scene.make import scene_of, with_views
-    from montecarlo_brdf.scene.read import read_scene
+    from montecarlo_brdf.scene.read import read_scene, scene_of, with_views
 
     path, spec, sky = options["scene"], options["spec"], options.get("environment")
     if path is not None and (spec or sky):

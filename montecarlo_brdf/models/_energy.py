@@ -1,9 +1,10 @@
 """The energy that height-correlated GGX loses, 1 - E(mu), as a table and how it is computed.
 
-By the weak white furnace, 1 - E is an integral of positive terms: light masked on its way out, and
-reflections below the horizon. The azimuth integral of D is known in closed form (`ring`); what is
-left is one integral over the elevation, on panels that shrink towards the mirror direction, the
-horizon and the normal.
+By the weak white furnace (Heitz 2014, "Understanding the masking-shadowing function"), 1 - E is an
+integral of positive terms: light masked on its way out, and reflections below the horizon. The
+azimuth integral of D (Walter et al. 2007, eq. 33) is elementary: `ring`. What is left is one
+integral over the elevation, on panels that shrink towards the mirror direction, the horizon and the
+normal.
 
 The table keeps the digits of 1 - E itself, which is of the order of alpha^2 at steep angles and of
 mu at the horizon. With x = mu/alpha and stretched = sqrt(mu^2 + alpha^2 (1 - mu^2)),

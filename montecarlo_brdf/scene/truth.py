@@ -16,8 +16,7 @@ from montecarlo_brdf.judge.claim import Reference
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.references import _irradiance
 from montecarlo_brdf.scene import skies
-from montecarlo_brdf.scene.lights import ORIGIN
-from montecarlo_brdf.scene.scene import Scene
+from montecarlo_brdf.scene.scene import ORIGIN, Scene
 from montecarlo_brdf.scene.surface import ignores_directions
 from montecarlo_brdf.truth import true_albedo
 from montecarlo_brdf.vectors import Vec, mirrored

@@ -135,9 +135,3 @@ def unit(w: Any, arithmetic: Arithmetic) -> Any:
     w = arithmetic.array(w)
     scale = arithmetic.function("sqrt")(w[:, 0] ** 2 + w[:, 1] ** 2 + w[:, 2] ** 2)
     return w / scale[:, None]
-
-
-def in_precision(function: Callable[..., Any], arithmetic: Arithmetic, *columns: Any) -> Any:
-    """Any function of numbers, applied to columns of numbers in a precision."""
-    columns = tuple(arithmetic.array(c) for c in columns)
-    return over_points(columns, Rebound(arithmetic).clone(function, {}), arithmetic)[0]

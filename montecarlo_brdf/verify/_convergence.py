@@ -15,11 +15,12 @@ from typing import NamedTuple
 from montecarlo_brdf import student
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws
-from montecarlo_brdf.estimate.charted import CHARTS
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.samplers import integrand_name
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import integrand
 from montecarlo_brdf.judge.claim import Reference
+from montecarlo_brdf.sampling.directions import DIRECTIONS, Sampler
 
 NAME = "convergence"
 
@@ -119,7 +120,8 @@ def curve(case: Case, theta: float, sampler: str, plan: Plan, known: Reference) 
     while n <= most and not (levels and levels[-1].error < 2.0 * floor):
         levels.append(_level(case, theta, sampler, plan, known.value, n))
         n *= 2
-    smooth = sampler in CHARTS and not (case.model.kinks and sampler != "panels")
+    kinked = case.model.kinks and sampler != Sampler.PANELS
+    smooth = DIRECTIONS[Sampler(sampler)].periodic and not kinked
     claim = CLAIMS[_claimed_as(case, theta, sampler, plan.points)][0 if smooth else 1]
     usable = USABLE_INDEPENDENT if plan.points == "independent" else USABLE
     fit = fitted(levels, floor, usable)
@@ -143,9 +145,9 @@ def randomisations(points: str) -> int:
 def _level(case: Case, theta: float, sampler: str, plan: Plan, truth: float, n: int) -> Level:
     replicates = randomisations(plan.points)
     many = plan._replace(samples=n * replicates, replicates=replicates)
-    name = integrand_name(case.model, "albedo", sampler)
+    one = integrand(case.model, Quantity.ALBEDO, sampler)
     # a stream of its own per N: errors at different N are independent, as the fit assumes
-    row = estimates(case.model, case.one, case.wo(theta), [name], many, (NAME, sampler, n))
+    row = estimates(case.model, case.one, case.wo(theta), [one], many, (NAME, sampler, n))
     each = tuple(abs(m / truth - 1.0) for m in row[0][0].replicates)
     squares = [e * e for e in each]
     mean = math.fsum(squares) / len(squares)

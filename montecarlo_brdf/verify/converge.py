@@ -78,7 +78,7 @@ def _findings(
     plan: Plan,
     progress: Progress | None,
 ) -> list[Finding]:
-    known = _known(case, theta)
+    known = reference_of(case, theta)
     total = len(samplers) * len(points)
     findings = []
     for curve in check.curves(case, theta, samplers, points, plan, known):
@@ -98,7 +98,7 @@ def _chosen(kind: str, asked: str | Sequence[str], offered: tuple[str, ...]) -> 
     return chosen
 
 
-def _known(case: Case, theta: float) -> Reference:
+def reference_of(case: Case, theta: float) -> Reference:
     """The reference; for a model without one, an adaptive estimate with its own error bar."""
     found = _truth.albedo(case.model, case.one, theta, case.phi_o_deg)
     if found is None or not found.value:

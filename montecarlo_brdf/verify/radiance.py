@@ -16,11 +16,11 @@ from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.sentences import place
 from montecarlo_brdf.scene import claims as scene_claims
+from montecarlo_brdf.scene import plan as planning
+from montecarlo_brdf.scene.claims import reversed_scene
 from montecarlo_brdf.scene.plan import ScenePlan
-from montecarlo_brdf.scene.reverse import reversed_scene
-from montecarlo_brdf.scene.scene import Scene
-from montecarlo_brdf.scene.standard import Standard
-from montecarlo_brdf.scene.standard_lobes import as_lobes, mend
+from montecarlo_brdf.scene.scene import Scene, as_lobes
+from montecarlo_brdf.scene.standard import Standard, mend
 from montecarlo_brdf.verify.common import (
     SAMPLES,
     Progress,
@@ -56,10 +56,10 @@ def radiance(
     sampling = planned(points, samples, seed, threads)
     check_tolerance(tolerance)
     started = time.perf_counter()
-    for lobe in as_lobes(scene).surface.lobes:  # type: ignore[union-attr]
+    for lobe in as_lobes(scene).lobes:
         for p in dict.fromkeys(lobe.sets):
             probe.check(lobe.model, p)
-    plan = scene_claims.plan_of(scene, skip)
+    plan = planning.make(scene, skip)
     findings: list[Finding] = []
     total = _count(scene, energy)
     for claim in _claims(scene, plan, tolerance, skip, energy):
@@ -100,11 +100,11 @@ def _claims(
         )
     yield from scene_claims.claims(scene, plan, tolerance)
     if energy or scene.band:
-        furnace = scene_claims.plan_of(scene.under_constant_light(1.0), skip)
+        furnace = planning.make(scene.under_constant_light(1.0), skip)
         if energy:
             yield from scene_claims.energy_claims(scene, furnace, tolerance)
             if reverse := reversed_scene(furnace.scene):
-                plan = scene_claims.plan_of(reverse, skip)
+                plan = planning.make(reverse, skip)
                 yield from scene_claims.energy_claims(scene, plan, tolerance, reverse=True)
         yield from scene_claims.band_claims(scene, furnace, tolerance)
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from cases import IDS, VARIANTS, made
 
-from montecarlo_brdf.compile.reach import names_used, references
+from montecarlo_brdf.compile.bind import names_used, references
 from montecarlo_brdf.models import _energy, _smith
 from montecarlo_brdf.models._fresnel import conductor, dielectric
 
