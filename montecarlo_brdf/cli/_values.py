@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import secrets
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -88,6 +89,61 @@ def _whole_of(text: str) -> int | None:
     return int(value) if value.is_integer() else None
 
 
+class Seed(click.ParamType):
+    """A seed, drawn and told if it is 'random'."""
+
+    name = "number"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> int:
+        """The number; UserError if it is none."""
+        if value == "random":
+            seed = secrets.randbits(32)
+            click.echo(f"seed {seed}", err=True)
+            return seed
+        number = whole(str(value))
+        if number is None or number >= 1 << 64:
+            raise UserError(
+                f"seed must be a whole number from 0 to 2^64 - 1, or random, not {value!r}"
+            )
+        return number
+
+
+class Numbers(click.ParamType):
+    """Numbers as `numbers` reads them; UserError with the option's name if they are none."""
+
+    name = "numbers"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> list[float]:
+        """The numbers; their range is checked where they are used."""
+        return value if isinstance(value, list) else numbers(str(value), _called(param))
+
+
+class Finite(click.ParamType):
+    """One number, likewise."""
+
+    name = "number"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> float:
+        """The number; its range is checked where it is used."""
+        return number(str(value), _called(param))
+
+
+def _called(option: click.Parameter) -> str:
+    return max(option.opts, key=len).lstrip("-")
+
+
+class Names(click.ParamType):
+    """'all', or names separated by commas; whether they exist is checked where they are used."""
+
+    name = "names"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> str | list[str]:
+        """'all' or a list."""
+        if value == "all" or isinstance(value, list):
+            return value
+        return [name.strip() for name in str(value).split(",")]
+
+
 class Number(click.ParamType):
     """A finite number; its range, here only told, is checked where it is used."""
 
@@ -132,14 +188,21 @@ def _axis(model: Model, assignment: str) -> tuple[str, list[Any]]:
         raise UserError(f"-p takes name=value, not {assignment!r}")
     if name in model.choices:
         return name, text.split(",")
-    return name, [value for part in text.split(",") for value in _parameter(name, part.strip())]
+    return name, values_of(name, text)
 
 
-def _parameter(name: str, text: str) -> list[Any]:
+Value = str | float | tuple[str, ...]
+
+
+def values_of(name: str, text: str) -> list[Value]:
     """Values as the model will check them: it knows what is allowed and says so."""
-    if ":" in text:
-        return list(_range(text, name))
-    return [tuple(text.split("/")) if "/" in text else text]
+    found: list[Value] = []
+    for part in map(str.strip, text.split(",")):
+        if ":" in part:
+            found += _range(part, name)
+        else:
+            found.append(tuple(part.split("/")) if "/" in part else part)
+    return found
 
 
 def models_of(spec: str) -> list[str]:

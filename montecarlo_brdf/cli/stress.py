@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+import functools
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number
+from montecarlo_brdf.cli._values import Names, Number
+from montecarlo_brdf.errors import UserError
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.model import Model
 
 EPILOG = """\b
 Examples:
@@ -44,6 +50,7 @@ Examples:
 @click.option(
     "--precision",
     "precisions",
+    type=Names(),
     metavar="NAMES",
     help="Judge only these: bfloat16, float16, float32, float64, longdouble. "
     "[--precision float16,float32]",
@@ -58,19 +65,64 @@ Examples:
 @click.option(
     "--at", metavar="X,Y,Z,X,Y,Z", help="Only evaluate f at this wo, wi, in every precision."
 )
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Heat maps of the error over angle and roughness. [--plot digits.png]",
-)
+@_options.plot_option("Heat maps of the error over angle and roughness. [--plot digits.png]")
 @_options.output_options
-def command(**options: Any) -> int:
+def command(
+    spec: str | None,
+    compare: tuple[str, str] | None,
+    assignments: tuple[str, ...],
+    precisions: list[str] | None,
+    max_error: float | None,
+    quick: bool,
+    at: str | None,
+    output: _options.Output,
+) -> int:
     """Run the model's own source in half, single, double and long double precision, and compare.
 
     The error of f is what the model's arithmetic adds to the rounding of its inputs, relative to f
     and beyond one rounding of the largest f seen from the same direction.
     """
-    from montecarlo_brdf.cli._stressing import run_stress
+    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._values import parameter_sets
+    from montecarlo_brdf.report.stress import show
+    from montecarlo_brdf.stability.specimens import load
+    from montecarlo_brdf.verify.stress import measured
 
-    return run_stress(options)
+    output.check()
+    if bool(spec) == bool(compare):
+        raise UserError("stress takes either --model MODEL or --compare A B")
+    models = [load(one) for one in compare or (spec,) if one]
+    sets = None
+    if assignments:
+        given = [parameter_sets(model, assignments) for model in models]
+        models = [model.of(many[0]) for model, many in zip(models, given, strict=True)]
+        sets = given[0]
+    if at:
+        return show_point(models[0], sets, at)
+    with progress(f"stress {', '.join(m.name for m in models)}") as update:
+        report, found = measured(models, sets, precisions, max_error, quick, update)
+    return _options.deliver(report, output, functools.partial(show, report, found))
+
+
+def show_point(model: Model, sets: Sequence[Any] | None, text: str) -> int:
+    """f at one pair of directions in every precision, and its truth."""
+    import numpy as np
+
+    from montecarlo_brdf.cli._values import numbers
+    from montecarlo_brdf.stability.arithmetic import exact, ladder
+    from montecarlo_brdf.stability.ladder import Rung, rounded, unit
+
+    components = numbers(text, "at")
+    if len(components) != 6 or min(components[2], components[5]) <= 0.0:
+        raise UserError("--at takes six numbers, wo and wi, both above the horizon")
+    wo, wi = np.array([components[:3]]), np.array([components[3:]])
+    p = sets[0] if sets else model.parameters()
+    for one in ladder().values():
+        q, value = rounded(p, one), math.nan
+        if q is not None:
+            value = float(Rung(model, one).f(one.array(wo), one.array(wi), q)[0])
+        click.echo(f"{one.name:10} {value!r}")
+    e = exact()
+    truth = Rung(model, e).f(unit(wo, e), unit(wi, e), rounded(p, e))[0]
+    click.echo(f"{'truth':10} {float(truth)!r}  (50 digits, these directions renormalised)")
+    return 0
