@@ -4,12 +4,13 @@ from __future__ import annotations
 import functools
 import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
 
-from montecarlo_brdf.cli._values import Number, Seed, Whole
+from montecarlo_brdf.cli._values import Number, Read, Whole, number, numbers, read_seed
 from montecarlo_brdf.errors import OutputError, UserError, unknown
 from montecarlo_brdf.files import check_writable, write_text
 from montecarlo_brdf.judge.finding import Policy, Report, Verdict
@@ -28,34 +29,37 @@ def model_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> 
     return [n for n in names() if n.startswith(incomplete)]
 
 
-def model_option(command: Command) -> Command:
-    """--model and -p."""
-    return _model_options(command, required=True)
-
-
-def optional_model_option(command: Command) -> Command:
-    """The same for a command that knows what to do without."""
-    return _model_options(command, required=False)
-
-
-def _model_options(command: Command, required: bool) -> Command:
-    command = click.option(
-        "-p",
-        "--param",
-        "assignments",
-        multiple=True,
-        metavar="NAME=VALUE",
-        help="A parameter or choice; lists and ranges make cases, a/b/c makes a colour. "
-        "[-p albedo=0.5  -p alpha=0.1,0.3  -p alpha=0.05:1:log5  -p f0=1/0.7/0.3]",
-    )(command)
-    return click.option(
-        "--model",
-        "spec",
-        required=required,
-        metavar="MODEL",
-        shell_complete=model_names,
-        help="A built-in model, my_brdf.py, or my_brdf.py:name. [--model lambert]",
-    )(command)
+#: options that several commands have, some with a help of their own
+model = partial(
+    click.option, "--model", "spec", metavar="MODEL", shell_complete=model_names,
+    help="A built-in model, my_brdf.py, or my_brdf.py:name. [--model lambert]",
+)  # fmt: skip
+parameters = partial(
+    click.option, "-p", "--param", "assignments", multiple=True, metavar="NAME=VALUE",
+    help="A parameter or choice; lists and ranges make cases, a/b/c makes a colour. "
+    "[-p albedo=0.5  -p alpha=0.1,0.3  -p alpha=0.05:1:log5  -p f0=1/0.7/0.3]",
+)  # fmt: skip
+theta_o = partial(
+    click.option, "--theta-o", type=Read(numbers), metavar="DEGREES", show_default=True
+)
+phi_o = partial(
+    click.option, "--phi-o", type=Read(number), metavar="DEGREES", default="0",
+    help="Azimuth of the viewer. [--phi-o 45]",
+)  # fmt: skip
+seed = partial(
+    click.option, "--seed", type=Read(read_seed), metavar="NUMBER", default="0", show_default=True,
+    help="A number, or random (printed). [--seed 7]",
+)  # fmt: skip
+threads = partial(
+    click.option, "--threads", type=Whole(),
+    help="Threads; results do not depend on it. [--threads 1]  [default: all]",
+)  # fmt: skip
+tolerance = partial(
+    click.option, "--tolerance", type=Number("in [0, 1)"),
+    help="Allowed deviation: relative from a reference [default: 1e-4], absolute from a bound "
+    "[default: 1e-5]. [--tolerance 1e-3]",
+)  # fmt: skip
+plot = partial(click.option, "--plot", type=click.Path(path_type=Path), metavar="FILE")
 
 
 class Sampling(NamedTuple):
@@ -72,14 +76,6 @@ class Sampling(NamedTuple):
         return {k: v for k, v in self._asdict().items() if k != "samples" or v is not None}
 
 
-def threads_option(command: Command) -> Command:
-    """--threads."""
-    return click.option(
-        "--threads", type=Whole(), default=None,
-        help="Threads; results do not depend on it. [--threads 1]  [default: all]",
-    )(command)  # fmt: skip
-
-
 def sampling_options(command: Command) -> Command:
     """--points, --samples, --seed, --threads, --tolerance, as one argument `sampling`."""
     return _gathered(command, "sampling", Sampling, [
@@ -89,12 +85,9 @@ def sampling_options(command: Command) -> Command:
         click.option("--samples", type=Whole(), default=None,
                      help="The most samples a claim may take; it stops sooner where it is decided. "
                      "[--samples 2^20]  [default: 2^22; run: 2^20]"),
-        click.option("--seed", type=Seed(), default="0", show_default=True, metavar="NUMBER",
-                     help="A number, or random (printed). [--seed 7]"),
-        threads_option,
-        click.option("--tolerance", type=Number("in [0, 1)"), default=None,
-                     help="Allowed deviation: relative from a reference [default: 1e-4], absolute "
-                     "from a bound [default: 1e-5]. [--tolerance 1e-3]"),
+        seed(),
+        threads(),
+        tolerance(),
     ])  # fmt: skip
 
 
@@ -116,11 +109,6 @@ def output_options(command: Command) -> Command:
         click.option("-v", "--verbose", is_flag=True,
                      help="Show every estimator of every finding."),
     ])  # fmt: skip
-
-
-def plot_option(text: str) -> Option:
-    """--plot, part of `output`."""
-    return click.option("--plot", type=click.Path(path_type=Path), metavar="FILE", help=text)
 
 
 def _gathered(

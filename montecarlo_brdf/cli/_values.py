@@ -64,11 +64,13 @@ class Whole(click.ParamType):
 
     name = "number"
 
-    def convert(self, value: Any, param: Any, ctx: Any) -> int:
+    def convert(
+        self, value: str | int, param: click.Parameter | None, ctx: click.Context | None
+    ) -> int:
         """The number; its range is checked where it is used."""
         if isinstance(value, int):
             return value
-        number = _whole_of(str(value).replace("_", ""))
+        number = _whole_of(value.replace("_", ""))
         if number is None:
             self.fail(f"{value!r} is not a whole number (write 65536, 2^16 or 1e6)", param, ctx)
         return number
@@ -89,59 +91,36 @@ def _whole_of(text: str) -> int | None:
     return int(value) if value.is_integer() else None
 
 
-class Seed(click.ParamType):
-    """A seed, drawn and told if it is 'random'."""
-
-    name = "number"
-
-    def convert(self, value: Any, param: Any, ctx: Any) -> int:
-        """The number; UserError if it is none."""
-        if value == "random":
-            seed = secrets.randbits(32)
-            click.echo(f"seed {seed}", err=True)
-            return seed
-        number = whole(str(value))
-        if number is None or number >= 1 << 64:
-            raise UserError(
-                f"seed must be a whole number from 0 to 2^64 - 1, or random, not {value!r}"
-            )
-        return number
+def read_seed(text: str, what: str) -> int:
+    """A seed, drawn and told if it is 'random', or a UserError."""
+    if text == "random":
+        drawn = secrets.randbits(32)
+        click.echo(f"seed {drawn}", err=True)
+        return drawn
+    found = whole(text)
+    if found is None or found >= 1 << 64:
+        allowed = "a whole number from 0 to 2^64 - 1, or random"
+        raise UserError(f"{what} must be {allowed}, not {text!r}")
+    return found
 
 
-class Numbers(click.ParamType):
-    """Numbers as `numbers` reads them; UserError with the option's name if they are none."""
-
-    name = "numbers"
-
-    def convert(self, value: Any, param: Any, ctx: Any) -> list[float]:
-        """The numbers; their range is checked where they are used."""
-        return value if isinstance(value, list) else numbers(str(value), _called(param))
-
-
-class Finite(click.ParamType):
-    """One number, likewise."""
-
-    name = "number"
-
-    def convert(self, value: Any, param: Any, ctx: Any) -> float:
-        """The number; its range is checked where it is used."""
-        return number(str(value), _called(param))
-
-
-def _called(option: click.Parameter) -> str:
-    return max(option.opts, key=len).lstrip("-")
-
-
-class Names(click.ParamType):
+def listed(text: str, what: str) -> str | list[str]:
     """'all', or names separated by commas; whether they exist is checked where they are used."""
+    return text if text == "all" else [name.strip() for name in text.split(",")]
 
-    name = "names"
 
-    def convert(self, value: Any, param: Any, ctx: Any) -> str | list[str]:
-        """'all' or a list."""
-        if value == "all" or isinstance(value, list):
-            return value
-        return [name.strip() for name in str(value).split(",")]
+class Read(click.ParamType):
+    """What a function makes of a text; it gets the option's name for its complaint."""
+
+    name = "text"
+
+    def __init__(self, function: Callable[[str, str], Any]) -> None:
+        self._function = function
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: object) -> Any:
+        """The value; its range is checked where it is used."""
+        what = max(param.opts, key=len).lstrip("-") if param else ""
+        return self._function(value, what) if isinstance(value, str) else value
 
 
 class Number(click.ParamType):
@@ -152,7 +131,9 @@ class Number(click.ParamType):
     def __init__(self, allowed: str = "that is finite") -> None:
         self.allowed = allowed
 
-    def convert(self, value: Any, param: Any, ctx: Any) -> float:
+    def convert(
+        self, value: str | float, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
         """The number."""
         try:
             return number(str(value), "")
@@ -207,6 +188,7 @@ def values_of(name: str, text: str) -> list[Value]:
 
 def models_of(spec: str) -> list[str]:
     """'all', or names separated by commas."""
-    from montecarlo_brdf.loading import names
+    from montecarlo_brdf import loading
 
-    return names() if spec == "all" else [one.strip() for one in spec.split(",")]
+    found = listed(spec, "model")
+    return loading.names() if isinstance(found, str) else found

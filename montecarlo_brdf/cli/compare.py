@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Finite, Number, Numbers, Seed
 
 if TYPE_CHECKING:
     from montecarlo_brdf.model import Model
@@ -24,18 +23,14 @@ Examples:
 @click.command("compare", epilog=EPILOG, short_help="Two models' values, A and R side by side.")
 @click.argument("model", metavar="A", shell_complete=_options.model_names)
 @click.argument("other", metavar="B", shell_complete=_options.model_names)
-@click.option("-p", "--param", "assignments", multiple=True, metavar="NAME=VALUE",
-              help="A parameter or choice of A, of B, or of both if both have it. [-p alpha=0.1]")
-@click.option("--theta-o", type=Numbers(), default="0,15,30,45,60,75,85", show_default=True,
-              metavar="DEGREES", help="Angles in [0, 90) of the direction that is given. "
-              "[--theta-o 0:85:18]")
-@click.option("--phi-o", type=Finite(), default="0", metavar="DEGREES",
-              help="Its azimuth. [--phi-o 45]")
-@click.option("--tolerance", type=Number("in [0, 1)"), default=None,
-              help="Allowed relative deviation [default: 1e-6 of f, 1e-4 of A and R]. "
-              "[--tolerance 0.01]")
-@click.option("--seed", type=Seed(), default="0", show_default=True, metavar="NUMBER",
-              help="Of the random directions: a number, or random (printed). [--seed 7]")
+@_options.parameters(help="A parameter or choice of A, of B, or of both if both have it. "
+                     "[-p alpha=0.1]")  # fmt: skip
+@_options.theta_o(default="0,15,30,45,60,75,85",
+                  help="Angles in [0, 90) of the direction that is given. [--theta-o 0:85:18]")
+@_options.phi_o(help="Its azimuth. [--phi-o 45]")
+@_options.tolerance(help="Allowed relative deviation [default: 1e-6 of f, 1e-4 of A and R]. "
+                    "[--tolerance 0.01]")  # fmt: skip
+@_options.seed(help="Of the random directions: a number, or random (printed). [--seed 7]")
 @_options.output_options
 def command(
     model: str,

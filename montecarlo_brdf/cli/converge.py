@@ -4,7 +4,7 @@ from __future__ import annotations
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Finite, Names, Seed, Whole
+from montecarlo_brdf.cli._values import Read, Whole, listed, number
 
 EPILOG = """\b
 Examples:
@@ -15,25 +15,24 @@ Examples:
 
 
 @click.command("converge", epilog=EPILOG, short_help="Error against samples: slopes and claims.")
-@_options.model_option
-@click.option("--theta-o", type=Finite(), default="60", show_default=True, metavar="DEGREES",
-              help="Polar angle of the viewer in [0, 90). [--theta-o 80]")  # fmt: skip
-@click.option("--phi-o", type=Finite(), default="0", metavar="DEGREES",
-              help="Azimuth of the viewer. [--phi-o 45]")  # fmt: skip
-@click.option("--sampler", type=Names(), default="all", show_default=True, metavar="NAMES",
+@_options.model(required=True)
+@_options.parameters()
+@_options.theta_o(type=Read(number), default="60",
+                  help="Polar angle of the viewer in [0, 90). [--theta-o 80]")  # fmt: skip
+@_options.phi_o()
+@click.option("--sampler", type=Read(listed), default="all", show_default=True, metavar="NAMES",
               help="all, or some of uniform, cosine, own, half_vector, mirror, panels. "
               "[--sampler cosine,own]")  # fmt: skip
-@click.option("--points", type=Names(), default="all", show_default=True, metavar="SETS",
+@click.option("--points", type=Read(listed), default="all", show_default=True, metavar="SETS",
               help="all, or some of independent, stratified, sobol, lattice. "
               "[--points sobol,lattice]")  # fmt: skip
 @click.option("--samples", type=Whole(), default="2^21", show_default=True,
               help="The most samples of one point of a curve, over its 32 randomisations. "
               "[--samples 2^18]")  # fmt: skip
-@click.option("--seed", type=Seed(), default="0", show_default=True, metavar="NUMBER",
-              help="A number, or random (printed). [--seed 7]")  # fmt: skip
-@_options.threads_option
+@_options.seed()
+@_options.threads()
 @_options.output_options
-@_options.plot_option("Error against samples, log-log, as PNG, SVG or PDF. [--plot error.png]")
+@_options.plot(help="Error against samples, log-log, as PNG, SVG or PDF. [--plot error.png]")
 def command(
     spec: str,
     assignments: tuple[str, ...],

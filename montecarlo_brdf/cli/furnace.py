@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Finite, Names, Number, Numbers
+from montecarlo_brdf.cli._values import Number, Read, listed
 
 EPILOG = """\b
 Examples:
@@ -21,13 +21,13 @@ Examples:
 
 
 @click.command("furnace", epilog=EPILOG, short_help="White furnace test: albedo against angle.")
-@_options.model_option
-@click.option("--theta-o", type=Numbers(), default="0,15,30,45,60,75,85", show_default=True,
-              metavar="DEGREES", help="Polar angles of the viewer in [0, 90): a list, or "
-              "first:last:count. [--theta-o 0:85:18]")  # fmt: skip
-@click.option("--phi-o", type=Finite(), default="0", metavar="DEGREES",
-              help="Azimuth of the viewer. [--phi-o 45]")  # fmt: skip
-@click.option("--sampler", type=Names(), default="all", show_default=True, metavar="NAMES",
+@_options.model(required=True)
+@_options.parameters()
+@_options.theta_o(default="0,15,30,45,60,75,85",
+                  help="Polar angles of the viewer in [0, 90): a list, or first:last:count. "
+                  "[--theta-o 0:85:18]")  # fmt: skip
+@_options.phi_o()
+@click.option("--sampler", type=Read(listed), default="all", show_default=True, metavar="NAMES",
               help="all, or some of uniform, cosine, own. [--sampler cosine,own]")  # fmt: skip
 @click.option("--target-error", type=Number("in [1e-13, 1)"), default=None,
               help="Sample until the 99 % interval of A is as narrow, relative to A. "
@@ -41,8 +41,8 @@ Examples:
               help="Keep partial sums in FILE, every ten seconds and at Ctrl-C, and go on from "
               "them: for billions of samples. [--resume sums.json]")  # fmt: skip
 @_options.output_options
-@_options.plot_option(
-    "Albedo against angle with error bars and reference, as PNG, SVG or PDF. [--plot a.png]"
+@_options.plot(
+    help="Albedo against angle with error bars and reference, as PNG, SVG or PDF. [--plot a.png]"
 )
 def command(
     spec: str,

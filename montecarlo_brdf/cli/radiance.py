@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Numbers
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -27,39 +26,22 @@ Examples:
     "radiance", epilog=EPILOG, short_help="Reflected radiance of a scene, with verdicts."
 )
 @click.argument("scene", required=False, type=click.Path(path_type=Path))
-@click.option(
-    "--model",
-    "spec",
-    metavar="MODEL",
-    shell_complete=_options.model_names,
-    help="Without a scene file: the model of the surface. [--model ggx]",
+@_options.model(help="Without a scene file: the model of the surface. [--model ggx]")
+@_options.parameters(
+    help="A parameter of the surface's model; a/b/c makes a colour. [-p alpha=0.1]"
 )
-@click.option(
-    "-p",
-    "--param",
-    "assignments",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="A parameter of the surface's model; a/b/c makes a colour. [-p alpha=0.1]",
-)
-@click.option(
-    "--environment",
-    metavar="SKY",
-    help="Without a scene file: constant:L, cosine:EXPONENT, cap:HALF_ANGLE, gradient, "
-    "quadratic, linear:A:B, each with :TILT in degrees, or image:FILE. [--environment cosine:8]",
-)
-@click.option(
-    "--theta-o",
-    type=Numbers(),
-    metavar="DEGREES",
-    help="Polar angles of the viewer in [0, 90) instead of the scene's. [--theta-o 0:85:18]",
-)
+@click.option("--environment", metavar="SKY",
+              help="Without a scene file: constant:L, cosine:EXPONENT, cap:HALF_ANGLE, gradient, "
+              "quadratic, linear:A:B, each with :TILT in degrees, or image:FILE. "
+              "[--environment cosine:8]")  # fmt: skip
+@_options.theta_o(help="Polar angles of the viewer in [0, 90) instead of the scene's. "
+                  "[--theta-o 0:85:18]")  # fmt: skip
 @click.option("--explain", is_flag=True, help="Print what is evaluated, what is skipped, and why.")
 @click.option("--no-skip", is_flag=True, help="Compute all of it the long way.")
 @_options.sampling_options
 @_options.output_options
-@_options.plot_option(
-    "L_o against angle with error bars and truth, as PNG, SVG or PDF. [--plot r.png]"
+@_options.plot(
+    help="L_o against angle with error bars and truth, as PNG, SVG or PDF. [--plot r.png]"
 )
 def command(
     scene: Path | None,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Seed, Whole
+from montecarlo_brdf.cli._values import Whole
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -34,72 +34,27 @@ Examples:
     "render", epilog=EPILOG, short_help="A sphere under a scene's light; the furnace picture."
 )
 @click.argument("scene", required=False, type=click.Path(path_type=Path))
-@click.option(
-    "-o",
-    "--output",
-    "outputs",
-    type=click.Path(path_type=Path),
-    multiple=True,
-    required=True,
-    metavar="FILE",
-    help="A .png picture; .npy or .exr for linear values. [-o sphere.png]",
-)
-@click.option(
-    "--model",
-    "spec",
-    metavar="MODEL",
-    shell_complete=_options.model_names,
-    help="Without a scene file: the model of the surface. [--model ggx]",
-)
-@click.option(
-    "-p",
-    "--param",
-    "assignments",
-    multiple=True,
-    metavar="NAME=VALUE",
+@click.option("-o", "--output", "outputs", type=click.Path(path_type=Path), multiple=True,
+              required=True, metavar="FILE",
+              help="A .png picture; .npy or .exr for linear values. [-o sphere.png]")  # fmt: skip
+@_options.model(help="Without a scene file: the model of the surface. [--model ggx]")
+@_options.parameters(
     help="A parameter; lists and ranges make a row of spheres, two of them a grid. "
-    "[-p alpha=0.1:1:5]",
+    "[-p alpha=0.1:1:5]"
 )
-@click.option(
-    "--environment",
-    metavar="SKY",
-    help="Without a scene file: the sky, as for radiance. [--environment cap:20:45]",
-)
-@click.option(
-    "--furnace",
-    is_flag=True,
-    help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.",
-)
-@click.option(
-    "--size", type=Whole(), default="512", show_default=True, help="Pixels across. [--size 256]"
-)
-@click.option(
-    "--samples",
-    type=Whole(),
-    default="256",
-    show_default=True,
-    help="Samples per pixel where pixels are sampled. [--samples 1024]",
-)
-@click.option(
-    "--camera",
-    metavar="TILT[:AZIMUTH]",
-    help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]  "
-    "[default: where the scene says, else on the axis]",
-)
-@click.option(
-    "--seed",
-    type=Seed(),
-    default="0",
-    show_default=True,
-    metavar="NUMBER",
-    help="A number, or random. [--seed 7]",
-)
-@click.option(
-    "--threads",
-    type=Whole(),
-    default=None,
-    help="Threads; results do not depend on it. [--threads 1]",
-)
+@click.option("--environment", metavar="SKY", help="Without a scene file: the sky, as for "
+              "radiance. [--environment cap:20:45]")  # fmt: skip
+@click.option("--furnace", is_flag=True,
+              help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.")
+@click.option("--size", type=Whole(), default="512", show_default=True,
+              help="Pixels across. [--size 256]")  # fmt: skip
+@click.option("--samples", type=Whole(), default="256", show_default=True,
+              help="Samples per pixel where pixels are sampled. [--samples 1024]")  # fmt: skip
+@click.option("--camera", metavar="TILT[:AZIMUTH]",
+              help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]  "
+              "[default: where the scene says, else on the axis]")  # fmt: skip
+@_options.seed(help="A number, or random. [--seed 7]")
+@_options.threads(help="Threads; results do not depend on it. [--threads 1]")
 def command(
     scene: Path | None,
     outputs: tuple[Path, ...],

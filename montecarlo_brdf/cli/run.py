@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Finite, Names, Numbers
+from montecarlo_brdf.cli._values import Read, listed
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -40,17 +40,17 @@ Examples:
 
 
 @click.command("run", epilog=EPILOG, short_help="Every check of one, several or all models.")
-@_options.optional_model_option
+@_options.model()
+@_options.parameters()
 @click.option("--config", type=click.Path(path_type=Path), metavar="FILE",
               help="Without --model: what to check, instead of the nearest brdf-check.toml or "
               "[tool.brdf-check] of a pyproject.toml. [--config ci/brdf-check.toml]")  # fmt: skip
-@click.option("--check", "names", type=Names(), default="all", show_default=True, metavar="NAMES",
-              help="Which checks, separated by commas. [--check energy,pdf]")
-@click.option("--theta-o", type=Numbers(), default="0,45,80", show_default=True, metavar="DEGREES",
-              help="Angles of the viewer in [0, 90) for checks that look at some. "
-              "[--theta-o 0:85:6]")
-@click.option("--phi-o", type=Finite(), default="0", metavar="DEGREES",
-              help="Azimuth of the viewer. [--phi-o 45]")
+@click.option("--check", "names", type=Read(listed), default="all", show_default=True,
+              metavar="NAMES", help="Which checks, separated by commas. [--check energy,pdf]")
+@_options.theta_o(default="0,45,80",
+                  help="Angles of the viewer in [0, 90) for checks that look at some. "
+                  "[--theta-o 0:85:6]")  # fmt: skip
+@_options.phi_o()
 @click.option("--against", metavar="MODEL",
               help="A model that it must equal in values. [--against ggx]")
 @click.option("--max-time", type=float, metavar="SECONDS",

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Names, Number
+from montecarlo_brdf.cli._values import Number, Read, listed
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -26,46 +26,24 @@ Examples:
 
 
 @click.command("stress", epilog=EPILOG, short_help="Which digits survive in which precision.")
-@click.option(
-    "--model",
-    "spec",
-    metavar="MODEL",
-    shell_complete=_options.model_names,
-    help="A built-in model, a specimen, my_brdf.py, or my_brdf.py:name. [--model ggx]",
+@_options.model(
+    help="A built-in model, a specimen, my_brdf.py, or my_brdf.py:name. [--model ggx]"
 )
-@click.option(
-    "--compare",
-    nargs=2,
-    metavar="A B",
-    help="Two models side by side. [--compare textbook_ggx ggx]",
+@click.option("--compare", nargs=2, metavar="A B",
+              help="Two models side by side. [--compare textbook_ggx ggx]")  # fmt: skip
+@_options.parameters(
+    help="A parameter or choice; without, the whole domain is searched. [-p alpha=0.01]"
 )
-@click.option(
-    "-p",
-    "--param",
-    "assignments",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="A parameter or choice; without, the whole domain is searched. [-p alpha=0.01]",
-)
-@click.option(
-    "--precision",
-    "precisions",
-    type=Names(),
-    metavar="NAMES",
-    help="Judge only these: bfloat16, float16, float32, float64, longdouble. "
-    "[--precision float16,float32]",
-)
-@click.option(
-    "--max-error",
-    type=Number(),
-    default=None,
-    help="Relative error allowed [default: 1e-5 in single, 1e-13 in double]. [--max-error 1e-4]",
-)
+@click.option("--precision", "precisions", type=Read(listed), metavar="NAMES",
+              help="Judge only these: bfloat16, float16, float32, float64, longdouble. "
+              "[--precision float16,float32]")  # fmt: skip
+@click.option("--max-error", type=Number(), default=None,
+              help="Relative error allowed [default: 1e-5 in single, 1e-13 in double]. "
+              "[--max-error 1e-4]")  # fmt: skip
 @click.option("--quick", is_flag=True, help="A few seconds: fewer points.")
-@click.option(
-    "--at", metavar="X,Y,Z,X,Y,Z", help="Only evaluate f at this wo, wi, in every precision."
-)
-@_options.plot_option("Heat maps of the error over angle and roughness. [--plot digits.png]")
+@click.option("--at", metavar="X,Y,Z,X,Y,Z",
+              help="Only evaluate f at this wo, wi, in every precision.")  # fmt: skip
+@_options.plot(help="Heat maps of the error over angle and roughness. [--plot digits.png]")
 @_options.output_options
 def command(
     spec: str | None,

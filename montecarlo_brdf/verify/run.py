@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import functools
 import shlex
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -152,14 +151,17 @@ def perform(
         if progress:
             progress(sum(t.share for g in groups for t in g) / sum(map(len, groups)))
 
-    together = min(settings.plan.threads, MOST)
+    plan = settings.plan
+    together = min(plan.threads, MOST)
+    alone = plan._replace(threads=max(1, plan.threads // together))
     for group in groups:
         look = functools.partial(_first_look, group)
         if deadline.over() or not supervised(look, deadline, GRACE):
             return
         if not group[0].slow:
-            queue = _Queue(group, settings.plan, together)
-            work = functools.partial(_work, queue, settings, deadline, tell)
+            # the last has soon all threads to itself; `next` of a list's iterator is atomic
+            rest = iter([*((task, alone) for task in group[:-1]), (group[-1], plan)])
+            work = functools.partial(_work, rest, settings, deadline, tell)
             if not supervised(work, deadline, GRACE, together):
                 return
 
@@ -177,26 +179,11 @@ def _first_look(tasks: Sequence[Task]) -> None:
         task.slow, task.waiting = slow, False
 
 
-class _Queue:
-    """Tasks for several threads, each with the plan that it is to follow."""
-
-    def __init__(self, tasks: Sequence[Task], plan: Plan, together: int) -> None:
-        alone = plan._replace(threads=max(1, plan.threads // together))
-        # the last has soon all threads to itself
-        self._rest = iter([*((task, alone) for task in tasks[:-1]), (tasks[-1], plan)])
-        self._lock = threading.Lock()
-
-    def __iter__(self) -> Iterator[tuple[Task, Plan]]:
-        return self
-
-    def __next__(self) -> tuple[Task, Plan]:
-        with self._lock:
-            return next(self._rest)
-
-
-def _work(queue: _Queue, settings: Settings, deadline: Deadline, tell: Told) -> None:
+def _work(
+    rest: Iterator[tuple[Task, Plan]], settings: Settings, deadline: Deadline, tell: Told
+) -> None:
     """Take tasks and do them until none is left or the deadline is over."""
-    for task, plan in queue:
+    for task, plan in rest:
         if deadline.over():
             return
         task.fill(settings, plan, deadline, tell)
