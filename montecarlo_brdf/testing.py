@@ -14,9 +14,9 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
@@ -30,6 +30,27 @@ from montecarlo_brdf.verify.supervision import Deadline
 
 Parameters = Mapping[str, Any] | tuple[Any, ...] | None
 
+class Terms(TypedDict, total=False):
+    """The options of `verify.run` besides model, parameters, checks and deadline."""
+
+    theta_o_deg: Sequence[float]
+    phi_o_deg: float
+    fixed: Iterable[str]
+    against: Model | None
+    points: str
+    samples: int
+    seed: int
+    threads: int | None
+    tolerance: float | None
+
+
+class Options(Terms, total=False):
+    """Those of `assert_checks`."""
+
+    inconclusive: str
+    max_time: float
+
+
 __all__ = [
     "assert_checks",
     "assert_conserves_energy",
@@ -40,7 +61,9 @@ __all__ = [
 ]
 
 
-def assert_conserves_energy(brdf: Any, p: Parameters = None, **options: Any) -> Report:
+def assert_conserves_energy(
+    brdf: object, p: Parameters = None, **options: Unpack[Options]
+) -> Report:
     """Nowhere is more reflected than received, in either direction.
 
     brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
@@ -54,7 +77,7 @@ def assert_conserves_energy(brdf: Any, p: Parameters = None, **options: Any) -> 
     return assert_checks(brdf, p, ("energy",), **options)
 
 
-def assert_reciprocal(brdf: Any, p: Parameters = None, **options: Any) -> Report:
+def assert_reciprocal(brdf: object, p: Parameters = None, **options: Unpack[Options]) -> Report:
     """f(wo, wi) = f(wi, wo).
 
     brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
@@ -69,10 +92,10 @@ def assert_reciprocal(brdf: Any, p: Parameters = None, **options: Any) -> Report
 
 
 def assert_furnace(
-    brdf: Any,
+    brdf: object,
     p: Parameters = None,
     expected: float | Callable[..., float] | None = None,
-    **options: Any,
+    **options: Unpack[Options],
 ) -> Report:
     """The albedo is at most 1 and what it should be.
 
@@ -92,7 +115,9 @@ def assert_furnace(
     return assert_checks(model, p, ("furnace",), **options)
 
 
-def assert_samples_match_pdf(brdf: Any, p: Parameters = None, **options: Any) -> Report:
+def assert_samples_match_pdf(
+    brdf: object, p: Parameters = None, **options: Unpack[Options]
+) -> Report:
     """Drawn directions follow pdf, which integrates to 1 less what is rejected.
 
     brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
@@ -110,7 +135,7 @@ def assert_samples_match_pdf(brdf: Any, p: Parameters = None, **options: Any) ->
 
 
 def assert_converges(
-    brdf: Any, p: Parameters = None, *, inconclusive: str = Policy.FAIL, **options: Any
+    brdf: object, p: Parameters = None, *, inconclusive: str = Policy.FAIL, **options: Any
 ) -> Report:
     """The error of every estimator falls with the number of samples as its point set promises.
 
@@ -130,13 +155,13 @@ def assert_converges(
 
 
 def assert_checks(
-    brdf: Any,
+    brdf: object,
     p: Parameters = None,
     checks: tuple[str, ...] | None = None,
     *,
     inconclusive: str = Policy.FAIL,
     max_time: float = math.inf,
-    **options: Any,
+    **options: Unpack[Terms],
 ) -> Report:
     """Several checks at once, or all of them.
 
@@ -181,7 +206,7 @@ def _loadable(model: Model) -> bool:
     return model.built_in or bool(model.terms) or ".py" in model.name
 
 
-def as_model(brdf: Any, p: Parameters = None) -> Model:
+def as_model(brdf: object, p: Parameters = None) -> Model:
     """The model that something stands for.
 
     brdf: as above. p: the parameter set that is meant; of a function without Params its type is
