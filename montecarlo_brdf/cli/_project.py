@@ -4,8 +4,9 @@ The keys and what they mean: docs/ci.md. A mistake is reported with its line and
 """
 from __future__ import annotations
 
+import functools
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -22,8 +23,6 @@ from montecarlo_brdf.scene.toml import Path_, Table, parse
 FILE = "brdf-check.toml"
 PYPROJECT = "pyproject.toml"
 INSIDE: Path_ = ("tool", "brdf-check")
-#: may stand at the top and in each [[models]]
-SHARED = ("checks", "theta_o", "phi_o", "points", "samples", "seed", "tolerance", "tolerances")
 
 
 class Project(NamedTuple):
@@ -115,21 +114,8 @@ def _shared(
     table: Table, above: Terms, tolerances: dict[str, float]
 ) -> tuple[Terms, dict[str, float]]:
     """What may stand at the top and in [[models]]: terms, and a tolerance per check."""
-    found: dict[str, Any] = {}
-    data = table.data
-    if "checks" in data:
-        found["names"] = _checks(table, "checks")
-    if "theta_o" in data:
-        found["theta_o_deg"] = _angles(table)
-    if "phi_o" in data:
-        found["phi_o_deg"] = table.number("phi_o")
-    if "points" in data:
-        found["points"] = table.choice("points", SETS)
-    for key, low, high in (("samples", 1, 1 << 40), ("seed", 0, (1 << 64) - 1)):
-        if key in data:
-            found[key] = _whole(table, key, low, high)
-    if "tolerance" in data:
-        found["tolerance"] = table.number("tolerance", low=0.0, high=1.0 - 1e-12)
+    asked = [(key, *READ[key]) for key in table.data if key in READ]
+    found = {field: read(table, key) for key, field, read in asked}
     return above._replace(**found), {**tolerances, **_tolerances(table)}
 
 
@@ -151,27 +137,31 @@ def _tolerances(table: Table) -> dict[str, float]:
     inner = table.table("tolerances")
     inner.know(*checks.names())
     inner.done()
-    return {name: inner.number(name, low=0.0, high=1.0 - 1e-12) for name in inner.data}
+    return {name: _tolerance(inner, name) for name in inner.data}
 
 
-def _angles(table: Table) -> list[float]:
+def _angles(table: Table, key: str) -> list[float]:
     """[0, 45, 80] or "0:85:6"."""
-    value = table.take("theta_o")
+    value = table.take(key)
     try:
         listed = value if isinstance(value, list) else [value]
-        angles = [a for v in listed for a in numbers(str(v), "theta_o")]
+        angles = [a for v in listed for a in numbers(str(v), key)]
         for angle in angles:
-            check_theta(angle, "theta_o")
+            check_theta(angle, key)
     except UserError as error:
-        raise table.error(str(error), "theta_o") from error
+        raise table.error(str(error), key) from error
     return angles
 
 
-def _whole(table: Table, key: str, low: int, high: int) -> int:
+def _whole(low: int, high: int, table: Table, key: str) -> int:
     value = table.take(key)
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
         raise table.error(f"{key} must be a whole number from {low} to {high}, not {value!r}", key)
     return value
+
+
+def _tolerance(table: Table, key: str) -> float:
+    return table.number(key, low=0.0, high=1.0 - 1e-12)
 
 
 def _model(table: Table, key: str) -> Model:
@@ -201,3 +191,17 @@ def _text(params: Table, name: str, value: object) -> str:
     if not words or any(isinstance(w, (bool, dict)) for w in words):
         raise params.error(f"{name} must be a number, text as -p takes it, or a list of them", name)
     return ",".join(map(str, words))
+
+
+#: key of the file -> the term that it says, and how it is read
+READ: dict[str, tuple[str, Callable[[Table, str], Any]]] = {
+    "checks": ("names", _checks),
+    "theta_o": ("theta_o_deg", _angles),
+    "phi_o": ("phi_o_deg", Table.number),
+    "points": ("points", functools.partial(Table.choice, allowed=SETS)),
+    "samples": ("samples", functools.partial(_whole, 1, 1 << 40)),
+    "seed": ("seed", functools.partial(_whole, 0, (1 << 64) - 1)),
+    "tolerance": ("tolerance", _tolerance),
+}
+#: may stand at the top and in each [[models]]
+SHARED = (*READ, "tolerances")

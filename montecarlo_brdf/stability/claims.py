@@ -9,9 +9,8 @@ from typing import Any
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Limit, Reference
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Model, Property
-from montecarlo_brdf.stability.climb import Found
 from montecarlo_brdf.stability.sampling import LENGTH_ROUNDINGS, Draws
-from montecarlo_brdf.stability.stress import Loss
+from montecarlo_brdf.stability.stress import Found, Loss
 
 #: Constants of a source are doubles: long double cannot be better.
 DOUBLE = 2.0**-52
