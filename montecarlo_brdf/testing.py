@@ -194,7 +194,7 @@ def require(
     """
     __tracebackhide__ = True
     bad = {Verdict.ERROR, Verdict.FAIL}
-    bad |= set() if Policy(inconclusive) == Policy.PASS else {Verdict.INCONCLUSIVE}
+    bad |= set() if inconclusive == Policy.PASS else {Verdict.INCONCLUSIVE}
     lines = failures(report, bad, reproducible)
     if lines:
         cases = ", ".join(dict.fromkeys(case(r) for r in report.results))

@@ -88,12 +88,13 @@ def command(
         if not low <= value <= high:
             raise UserError(f"{name} must be a whole number from {low} to {high}, not {value}")
     viewer = from_degrees(*_camera(camera)) if camera else None
-    if scene is not None and (spec or environment):
-        raise UserError("give a scene file, or --model and --environment, not both")
+    sky = environment or (f"constant:{FURNACE}" if furnace else None)
     if scene is not None:
+        if spec or environment:
+            raise UserError("give a scene file, or --model and --environment, not both")
         scenes, columns = _from_file(scene, assignments)
-    elif spec and (environment or furnace):
-        scenes, columns = _from_model(spec, environment or f"constant:{FURNACE}", assignments)
+    elif spec and sky:
+        scenes, columns = _from_model(spec, sky, assignments)
     else:
         raise UserError("give a scene file, or --model with --environment or --furnace")
     made = []
