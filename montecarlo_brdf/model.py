@@ -110,7 +110,10 @@ class Model:
     rebuild: Callable[[Mapping[str, str]], Model] | None = field(default=None, repr=False)
 
     def variant(self, **picks: str) -> Model:
-        """The same model with other choices; the rest keep their current pick."""
+        """The same model with other choices; the rest keep their current pick.
+
+        picks: an option per choice, as norm="n+8". Raises UserError for a name that is not offered.
+        """
         for category, pick in picks.items():
             if category not in self.choices:
                 raise UserError(unknown(f"choice of model {self.name}", category, self.choices))
@@ -122,9 +125,9 @@ class Model:
     def parameters(self, **values: Any) -> Any:
         """A parameter set as a NamedTuple of floats, checked against the domain.
 
-        Choices (`norm="n+8"`) may be given beside numbers. A tuple of numbers makes a colour: one
-        channel per number. Raises UserError for an unknown name, or a value that is not a finite
-        number of the domain.
+        values: numbers by name; a tuple of numbers makes a colour, one channel per number. Choices
+        (`norm="n+8"`) may be given beside them. Raises UserError for an unknown name, or a value
+        that is not a finite number of the domain.
         """
         picks = {k: values.pop(k) for k in list(values) if k in self.choices}
         model = self.variant(**picks) if picks else self
@@ -144,12 +147,18 @@ class Model:
         return model.Params._make(values[n] for n in names)
 
     def of(self, p: ParameterSet) -> Model:
-        """The variant of this model that the parameter set `p` belongs to."""
+        """The variant of this model that a parameter set belongs to.
+
+        p: from `parameters`. Raises UserError if its choices are not this model's.
+        """
         picks = getattr(type(p), "picks", self.picks)
         return self if picks == self.picks else self.variant(**picks)
 
     def prepared(self, p: ParameterSet) -> Prepared:
-        """What `f`, `sample` and `pdf` get for the parameter set `p`."""
+        """What `f`, `sample` and `pdf` get for a parameter set.
+
+        p: from `parameters`, of one channel. Raises what the model's own `prepare` raises.
+        """
         return self.prepare(p) if self.prepare else p
 
     def _checked(self, name: str, value: Any) -> Any:

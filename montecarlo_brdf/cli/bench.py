@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -20,10 +19,11 @@ Examples:
 
 
 @click.command("bench", epilog=EPILOG, short_help="Error against run time, method by method.")
-@_options.model_option
-@click.option("--theta-o", type=Number("in [0, 90)"), default="60", show_default=True,
-              help="Polar angle of the viewer in degrees, in [0, 90). [--theta-o 80]")
-@click.option("--phi-o", type=Number(), default="0", help="Azimuth, in degrees. [--phi-o 45]")
+@_options.model(required=True)
+@_options.parameters()
+@_options.theta_o(type=Number("in [0, 90)"), default="60",
+                  help="Polar angle of the viewer in degrees, in [0, 90). [--theta-o 80]")
+@_options.phi_o()
 @click.option("--method", default="all", show_default=True, metavar="NAMES",
               help="all, or some: auto, a sampler, a point set, 'own x sobol'. [--method auto,own]")
 @click.option("--seconds", type=Number("above 0"), default="0.05", show_default=True,
@@ -32,9 +32,19 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="Print the data as JSON, not as tables.")
 @click.option("--export", type=click.Path(path_type=Path), metavar="FILE",
               help="Write the data as JSON. [--export time.json]")
-@click.option("--plot", type=click.Path(path_type=Path), metavar="FILE",
-              help="Error against time, log-log, as PNG, SVG or PDF. [--plot time.png]")
-def command(**options: Any) -> int:  # fmt: skip
+@_options.plot(help="Error against time, log-log, as PNG, SVG or PDF. [--plot time.png]")
+def command(
+    spec: str,
+    assignments: tuple[str, ...],
+    theta_o: float,
+    phi_o: float,
+    method: str,
+    seconds: float,
+    quick: bool,
+    as_json: bool,
+    export: Path | None,
+    plot: Path | None,
+) -> int:  # fmt: skip
     """Which method reaches an error of 1e-2, 1e-3, 1e-4, 1e-6 in which time?
 
     A method is a sampler or chart with a point set, shown with the fewest samples that suffice, or
@@ -48,21 +58,20 @@ def command(**options: Any) -> int:  # fmt: skip
     from montecarlo_brdf.report import plots
     from montecarlo_brdf.verify.bench import bench
 
-    export, plot = options["export"], options["plot"]
-    _options.check_outputs("text", export, plot)
+    for path in filter(None, (export, plot)):
+        files.check_writable(path)
     if plot:
         plots.kind_of(plot)
-    model = loading.load(options["spec"])
-    sets = parameter_sets(model, options["assignments"])
+    model = loading.load(spec)
+    sets = parameter_sets(model, assignments)
     if len(sets) > 1:
         raise UserError(f"bench takes one parameter set, not {len(sets)}: one value for each -p")
-    names, quick = options["method"].split(","), options["quick"]
-    seconds = options["seconds"] / (10.0 if quick else 1.0)
+    most, seeds = (0.1 * seconds, 4) if quick else (seconds, 8)
     with progress(f"bench {model.name}") as update:
-        data = bench(model, sets[0], options["theta_o"], phi_o_deg=options["phi_o"], method=names,
-                     seconds=seconds, seeds=4 if quick else 8, progress=update)  # fmt: skip
+        data = bench(model, sets[0], theta_o, phi_o_deg=phi_o, method=method.split(","),
+                     seconds=most, seeds=seeds, progress=update)  # fmt: skip
     text = json.dumps(data, indent=1, allow_nan=False) + "\n"
-    click.echo(text if options["as_json"] else report.table(data), nl=False)
+    click.echo(text if as_json else report.table(data), nl=False)
     if export:
         files.write_text(export, text)
     if plot:

@@ -5,8 +5,6 @@ from pathlib import Path
 
 import click
 
-from montecarlo_brdf.cli import _options
-
 
 @click.command(
     "plot",
@@ -18,9 +16,10 @@ from montecarlo_brdf.cli import _options
               help="PNG, SVG or PDF. [-o albedo.png]")  # fmt: skip
 def command(report: Path, output: Path) -> int:
     """Draw the picture of an exported report."""
+    from montecarlo_brdf.files import check_writable
     from montecarlo_brdf.report.plots import plot
     from montecarlo_brdf.report.read import read_report
 
-    _options.check_outputs("text", output)
+    check_writable(output)
     plot(read_report(report), output)
     return 0

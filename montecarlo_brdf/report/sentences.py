@@ -78,7 +78,7 @@ def explanation(finding: Finding) -> list[str]:
 
 def tally(findings: Iterable[Finding]) -> str:
     """'33 pass, 1 skipped'."""
-    counts = Counter(f.verdict for f in findings)
+    counts: Counter[str] = Counter(f.verdict for f in findings)
     order = ("pass", "fail", "error", "inconclusive", "known", "skipped")
     return ", ".join(f"{counts[v]} {v}" for v in order if counts[v])
 

@@ -1,4 +1,4 @@
-"""What the ladder of precisions found, as findings and as a table."""
+"""What the ladder of precisions found, as a table."""
 
 from __future__ import annotations
 
@@ -12,105 +12,10 @@ from rich.text import Text
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.text import COLOURS, PLAIN_WIDTH
-from montecarlo_brdf.stability.climb import Found
-from montecarlo_brdf.stability.sampling import LENGTH_ROUNDINGS
-from montecarlo_brdf.stability.stress import Outcome
-
-#: Precisions that a model is held to unless it is asked for others by name.
-PROMISED = ("float32", "float64")
-#: Constants of a source are doubles: long double cannot be better.
-DOUBLE = 2.0**-52
-UNASKED = "measured, not promised: --precision {} makes it a claim"
+from montecarlo_brdf.stability.stress import Loss
 
 
-def result(model: Any, outcomes: list[Outcome], promised: tuple[str, ...]) -> Result:
-    """The findings of all precisions of one model; its curves are the heat maps."""
-    findings = [f for o in outcomes for f in _findings(model, o, o.precision in promised)]
-    heat: list[Any] = [o.heat for o in outcomes]
-    return Result(model.name, dict(model.picks), "stability", findings, heat)
-
-
-def _findings(model: Any, o: Outcome, promised: bool) -> list[Finding]:
-    where = {"precision": o.precision}
-    note = None if promised else UNASKED.format(o.precision)
-
-    def at_most(
-        quantity: str, value: float, limit: float, reason: str | None, repro: str | None
-    ) -> Finding:
-        held = value <= limit
-        verdict = "pass" if held else ("fail" if promised else "known")
-        said = None if held else "; ".join(s for s in (reason, note) if s)
-        return Finding(
-            quantity, where, verdict, "at most", value, 0.0, 0.0, limit,
-            samples=o.points, estimator="search", note=said, reproduce=None if held else repro,
-        )  # fmt: skip
-
-    found = [at_most("error of f", _own(o), o.tolerance, *_worst(model, o, o.worst))]
-    kinds = {"nan": "NaN", "inf": "Inf", "negative": "negative"}
-    if "positivity" in model.disclaims:
-        del kinds["negative"]
-    broken = sum(o.counts[k] for k in kinds)
-    first = next((o.first[k] for k in kinds if k in o.first), None)
-    quantity = f"f is {', '.join(kinds.values())}"
-    found.append(at_most(quantity, float(broken), 0.0, *_worst(model, o, first)))
-    if o.safe:
-        found.append(_safe(o, where))
-    if o.draws:
-        d = o.draws
-        limit = LENGTH_ROUNDINGS * max(o.eps, DOUBLE)
-        found.append(
-            at_most("length of a sample - 1", d.length, limit, _drawn(d.where.get("length")), None)
-        )
-        bad = d.nan + d.unreachable + d.weightless
-        place = next(
-            (d.where[k] for k in ("nan", "unreachable", "weightless") if k in d.where), None
-        )
-        found.append(
-            at_most(
-                "samples NaN, of pdf 0, of infinite weight", float(bad), 0.0, _drawn(place), None
-            )
-        )
-    return found
-
-
-def _own(o: Outcome) -> float:
-    return o.worst.own if o.worst else 0.0
-
-
-def _safe(o: Outcome, where: dict[str, Any]) -> Finding:
-    name, value = o.safe or ("", math.nan)
-    none = "none is safe" if math.isnan(value) else None
-    return Finding(f"smallest safe {name}" if name != "n" else "largest safe n", where,
-                   "pass" if none is None else "known", value=value, stderr=0.0,
-                   samples=o.points, estimator="search", note=none)  # fmt: skip
-
-
-def _worst(model: Any, o: Outcome, found: Found | None) -> tuple[str | None, str | None]:
-    """What was found and the command that shows it again."""
-    if found is None:
-        return None, None
-    values = f"{o.precision} gives {found.value:.9g}, the truth is {found.truth:.9g}"
-    return values, reproduction(model, o.precision, found)
-
-
-def reproduction(model: Any, precision: str, found: Found) -> str:
-    """The command that evaluates this one point in every precision."""
-    numbers = {n: repr(float(v)) for n, v in zip(found.p._fields, found.p, strict=True)}
-    assignments = "".join(f" -p {n}={v}" for n, v in {**numbers, **model.picks}.items())
-    point = ",".join(repr(float(x)) for x in (*found.wo, *found.wi))
-    return (
-        f"brdf-check stress --model {model.name}{assignments} --precision {precision} --at {point}"
-    )
-
-
-def _drawn(place: dict[str, Any] | None) -> str | None:
-    if place is None:
-        return None
-    p = ", ".join(f"{n}={v:g}" for n, v in place["p"].items())
-    return f"wo = {tuple(place['wo'])}, u = {tuple(place['u'])}" + (f", {p}" if p else "")
-
-
-def show(report: Report, tables: list[tuple[Any, list[Outcome]]]) -> None:
+def show(report: Report, tables: list[tuple[Any, list[Loss]]]) -> None:
     """Print one table per model, side by side numbers for every precision, then what failed."""
     console = Console(width=None if sys.stdout.isatty() else PLAIN_WIDTH, highlight=False)
     for one, (model, outcomes) in zip(report.results, tables, strict=False):
@@ -136,7 +41,7 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def _table(outcomes: list[Outcome], one: Result) -> Table:
+def _table(outcomes: list[Loss], one: Result) -> Table:
     grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for name in COLUMNS:
         justify: Any = "left" if name == "verdict" else "right"
@@ -146,7 +51,7 @@ def _table(outcomes: list[Outcome], one: Result) -> Table:
     return grid
 
 
-def _row(o: Outcome) -> list[str]:
+def _row(o: Loss) -> list[str]:
     total = o.worst_total.total if o.worst_total else 0.0
     safe = (
         ""
@@ -155,7 +60,7 @@ def _row(o: Outcome) -> list[str]:
     )
     kinds = [str(o.counts[k]) for k in ("nan", "inf", "negative", "flushed")]
     length = "" if o.draws is None else f"{o.draws.length / o.eps:.1f} eps"
-    own = _own(o)
+    own = o.worst.own if o.worst else 0.0
     errors = [f"{own:.1e}", f"{own / o.eps:.2g}", f"{o.tolerance:.0e}", f"{total:.1e}"]
     return [o.precision, str(o.points), *errors, *kinds, safe, length]
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.stability.exact_functions import exact_functions
 
 DIGITS = 50
+#: numbers of the type under test
+Array = NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +34,7 @@ class Arithmetic:
     def __repr__(self) -> str:
         return self.name
 
-    def array(self, values: Any) -> Any:
+    def array(self, values: ArrayLike) -> Array:
         """Numbers rounded to this type."""
         values = np.asarray(values)
         if values.dtype == self.dtype:
@@ -51,7 +53,9 @@ class Arithmetic:
         return self.functions.get(name) or getattr(np, name)
 
 
-def _float(name: str, tolerance: float, dtype: Any = None, info: Any = None) -> Arithmetic:
+def _float(
+    name: str, tolerance: float, dtype: DTypeLike | None = None, info: Any = None
+) -> Arithmetic:
     dtype = np.dtype(dtype or name)
     info = info or np.finfo(dtype)
     eps, tiny = float(info.eps), float(info.tiny)
@@ -108,7 +112,7 @@ def exact() -> Arithmetic:
     context.dps = DIGITS
     eps = float(context.eps)
 
-    def convert(x: Any) -> Any:
+    def convert(x: SupportsFloat) -> Any:
         return x if isinstance(x, context.mpf) else _exactly(context, x)
 
     dtype, most = np.dtype(object), float("inf")
@@ -116,10 +120,94 @@ def exact() -> Arithmetic:
     return Arithmetic("exact", dtype, eps, 0.0, 0.0, most, eps, functions, convert)
 
 
-def _exactly(context: Any, x: Any) -> Any:
+def _exactly(context: Any, x: SupportsFloat) -> Any:
     """x without rounding, also a long double, which is a sum of two doubles."""
     high = float(x)
     if not isinstance(x, np.longdouble) or not np.isfinite(x):
         return context.mpf(high)
     with np.errstate(all="ignore"):
         return context.mpf(high) + context.mpf(float(x - type(x)(high)))
+
+
+Function = Callable[..., Any]
+
+#: What NumPy and mpmath call alike.
+SAME = ("exp", "expm1", "sin", "cos", "tan", "sinh", "cosh", "tanh", "hypot", "erf", "erfc",
+        "radians", "degrees")  # fmt: skip
+
+
+def exact_functions(context: Any) -> dict[str, Function]:
+    """NumPy's names for mpmath's functions, on arrays of objects, NaN where they are not real."""
+    numbers = {**_own(context), **{name: getattr(context, name) for name in SAME}}
+    return {
+        **{name: _on_arrays(_real(context, f), object) for name, f in numbers.items()},
+        **{name: _on_arrays(f, bool) for name, f in _conditions(context).items()},
+    }
+
+
+def _own(context: Any) -> dict[str, Function]:
+    """What is called differently, or has other values at its poles."""
+
+    def logarithm(function: Function, pole: int) -> Function:
+        return lambda x: -context.inf if x == pole else function(x)
+
+    return {
+        "true_divide": _quotient(context),
+        "power": lambda a, b: context.inf if a == 0 and b < 0 else a**b,
+        "sqrt": context.sqrt,
+        "exp2": lambda x: context.power(2, x),
+        "log": logarithm(context.log, 0),
+        "log2": logarithm(lambda x: context.log(x, 2), 0),
+        "log10": logarithm(context.log10, 0),
+        "log1p": logarithm(context.log1p, -1),
+        "arcsin": context.asin, "arccos": context.acos, "arctan": context.atan,
+        "arctan2": context.atan2, "floor": context.floor, "ceil": context.ceil,
+        "trunc": lambda x: context.floor(x) if x >= 0 else context.ceil(x),
+        "rint": context.nint,
+        "copysign": lambda a, b: abs(a) if b >= 0 else -abs(a),
+        "remainder": lambda a, b: a - b * context.floor(a / b),
+    }  # fmt: skip
+
+
+def _quotient(context: Any) -> Function:
+    """a / b with IEEE's answers for b = 0."""
+    nan, inf = context.nan, context.inf
+
+    def quotient(a: Any, b: Any) -> Any:
+        if b == 0:
+            return nan if a == 0 or context.isnan(a) else (inf if a > 0 else -inf)
+        return a / b
+
+    return quotient
+
+
+def _conditions(context: Any) -> dict[str, Function]:
+    return {
+        "isfinite": lambda x: bool(context.isfinite(x)),
+        "isnan": lambda x: bool(context.isnan(x)),
+        "isinf": lambda x: bool(context.isinf(x)),
+        "less": lambda a, b: a < b, "less_equal": lambda a, b: a <= b,
+        "greater": lambda a, b: a > b, "greater_equal": lambda a, b: a >= b,
+        "equal": lambda a, b: a == b, "not_equal": lambda a, b: a != b,
+    }  # fmt: skip
+
+
+def _real(context: Any, function: Function) -> Function:
+    """The function, NaN where it is complex or undefined."""
+
+    def value(*x: Any) -> Any:
+        try:
+            y = function(*x)
+        except (ValueError, ZeroDivisionError, OverflowError):
+            return context.nan
+        return context.nan if isinstance(y, context.mpc) else y
+
+    return value
+
+
+def _on_arrays(function: Function, dtype: type) -> Function:
+    def applied(*operands: ArrayLike) -> Any:
+        ufunc = np.frompyfunc(function, len(operands), 1)
+        return np.asarray(ufunc(*operands), dtype=dtype)
+
+    return applied

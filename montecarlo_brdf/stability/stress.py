@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.stability import climb, designed, sampling
-from montecarlo_brdf.stability.arithmetic import Arithmetic, exact, wider
+from montecarlo_brdf.stability import designed, sampling
+from montecarlo_brdf.stability.arithmetic import Arithmetic, Array, exact, wider
 from montecarlo_brdf.stability.designed import Points
 from montecarlo_brdf.stability.errors import Errors, errors
 from montecarlo_brdf.stability.ladder import Rung, rounded
@@ -21,23 +21,36 @@ EXACT_WORST, EXACT_EVERY = 4, 499
 MOST_EXACT, FEW_EXACT = 60, 20
 CLIMBS, ROUNDS = 6, 12
 FEW_CLIMBS, FEW_ROUNDS = 2, 4
+NEIGHBOURS = 48  # points around the worst one, in each round of a climb
 KINDS = ("nan", "inf", "negative", "flushed")
 
 
+class Found(NamedTuple):
+    """A point and how wrong the model is there."""
+
+    wo: Any
+    wi: Any
+    p: NamedTuple
+    value: float
+    truth: float
+    total: float
+    own: float
+
+
 @dataclass
-class Outcome:
-    """What one precision does to a model."""
+class Loss:
+    """What one precision loses of a model."""
 
     precision: str
     tolerance: float
     eps: float
     points: int = 0
     exact_points: int = 0
-    worst: climb.Found | None = None  # by what its inputs do not explain
-    worst_total: climb.Found | None = None
+    worst: Found | None = None  # by what its inputs do not explain
+    worst_total: Found | None = None
     counts: dict[str, int] = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
     counts_low: dict[str, int] = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
-    first: dict[str, climb.Found] = field(default_factory=dict)
+    first: dict[str, Found] = field(default_factory=dict)
     safe: tuple[str, float] | None = None  # parameter, value from which on errors are tolerable
     sharpness: list[tuple[float, float]] = field(default_factory=list)  # (value, worst own error)
     heat: list[tuple[float, float, float]] = field(
@@ -46,18 +59,18 @@ class Outcome:
     draws: sampling.Draws | None = None
 
 
-def outcome(
+def loss(
     model: Model,
     sets: Sequence[Any],
     arithmetic: Arithmetic,
     tolerance: float | None = None,
     quick: bool = False,
     progress: Callable[[float], None] | None = None,
-) -> Outcome:
+) -> Loss:
     """Stress one model in one precision over parameter sets; deterministic."""
     narrow, wide = Rung(model, arithmetic), Rung(model, wider(arithmetic))
-    result = Outcome(arithmetic.name, tolerance or arithmetic.tolerance, arithmetic.eps)
-    candidates: list[tuple[climb.Found, Any]] = []
+    result = Loss(arithmetic.name, tolerance or arithmetic.tolerance, arithmetic.eps)
+    candidates: list[tuple[Found, Any]] = []
     for i, p in enumerate(sets):
         q = rounded(p, arithmetic)
         if q is not None:
@@ -73,8 +86,8 @@ def outcome(
 
 
 def _one_set(
-    result: Outcome, narrow: Rung, wide: Rung, p: Any, q: Any, quick: bool
-) -> list[tuple[climb.Found, Any]]:
+    result: Loss, narrow: Rung, wide: Rung, p: NamedTuple, q: NamedTuple, quick: bool
+) -> list[tuple[Found, Any]]:
     """Evaluate the designed set of one parameter set; its worst points, to climb from."""
     points = designed.directions(narrow.arithmetic, designed.width_of(narrow.model, p), quick)
     if wide.arithmetic is exact():
@@ -88,22 +101,22 @@ def _one_set(
         result.sharpness.append((float(getattr(p, name)), float(found.own.max(initial=0.0))))
         result.heat += _by_angle(points, found, float(getattr(p, name)))
     worst = [int(np.argmax(found.own)), int(np.argmax(found.total))]
-    _keep(result, *(climb.at(points, q, found, i) for i in worst))
+    _keep(result, *(at(points, q, found, i) for i in worst))
     if not quick and wide.arithmetic is not exact():
         _against_exact(result, narrow, points, q, found)
     peers = points.wi[points.group == points.group[worst[0]]]
-    return [(climb.at(points, q, found, worst[0]), peers)]
+    return [(at(points, q, found, worst[0]), peers)]
 
 
-def _count(result: Outcome, points: Points, q: Any, found: Errors) -> None:
+def _count(result: Loss, points: Points, q: NamedTuple, found: Errors) -> None:
     for kind, here in found.kinds.items():
         result.counts[kind] += int((here & ~found.low).sum())
         result.counts_low[kind] += int((here & found.low).sum())
         if kind not in result.first and (here & ~found.low).any():
-            result.first[kind] = climb.at(points, q, found, int(np.argmax(here & ~found.low)))
+            result.first[kind] = at(points, q, found, int(np.argmax(here & ~found.low)))
 
 
-def _keep(result: Outcome, *found: climb.Found) -> None:
+def _keep(result: Loss, *found: Found) -> None:
     for one in found:
         if result.worst is None or one.own > result.worst.own:
             result.worst = one
@@ -120,7 +133,9 @@ def _by_angle(points: Points, found: Errors, value: float) -> list[tuple[float, 
     return [(float(t), value, float(e)) for t, e in zip(theta, worst, strict=False)]
 
 
-def _against_exact(result: Outcome, narrow: Rung, points: Points, q: Any, found: Errors) -> None:
+def _against_exact(
+    result: Loss, narrow: Rung, points: Points, q: NamedTuple, found: Errors
+) -> None:
     """The worst points and some others again, with 50 digits as truth."""
     order = np.argsort(found.own)[-EXACT_WORST:]
     chosen = np.unique(np.r_[order, np.arange(0, len(found.own), EXACT_EVERY)])
@@ -136,14 +151,14 @@ def _against_exact(result: Outcome, narrow: Rung, points: Points, q: Any, found:
         larger = found.truth[chosen[i]]
         relative = abs(float(again.truth[i]) - float(larger)) / abs(float(again.truth[i]))
         if relative > narrow.arithmetic.eps:  # the wider type is not the truth here
-            _keep(result, climb.at(few, q, again, i))
+            _keep(result, at(few, q, again, i))
 
 
 def _climb_from(
-    result: Outcome,
+    result: Loss,
     narrow: Rung,
     wide: Rung,
-    candidates: list[tuple[climb.Found, Any]],
+    candidates: list[tuple[Found, Any]],
     quick: bool,
 ) -> None:
     rng = np.random.default_rng(7)
@@ -152,11 +167,11 @@ def _climb_from(
     rounds = FEW_ROUNDS if quick else ROUNDS
     for found, peers in ranked[: FEW_CLIMBS if few else CLIMBS]:
         if np.isfinite(found.own):
-            result.points += rounds * climb.NEIGHBOURS
-            _keep(result, climb.climb(narrow, wide, found, peers, rounds, rng))
+            result.points += rounds * NEIGHBOURS
+            _keep(result, climb(narrow, wide, found, peers, rounds, rng))
 
 
-def _safe(result: Outcome, model: Model) -> tuple[str, float] | None:
+def _safe(result: Loss, model: Model) -> tuple[str, float] | None:
     """The sharpest value of the sharpness parameter up to which all smoother ones are tolerable."""
     name = designed.sharpness(model)
     worst: dict[float, float] = {}
@@ -171,3 +186,43 @@ def _safe(result: Outcome, model: Model) -> tuple[str, float] | None:
             break
         safe = value
     return (name, safe) if safe is not None else (name, float("nan"))
+
+
+def at(points: Points, p: NamedTuple, found: Errors, i: int) -> Found:
+    """Point i of an evaluation."""
+    numbers = (
+        float(found.value[i]),
+        float(found.truth[i]),
+        float(found.total[i]),
+        float(found.own[i]),
+    )
+    return Found(points.wo[i], points.wi[i], p, *numbers)
+
+
+def climb(
+    narrow: Rung, wide: Rung, start: Found, peers: Array, rounds: int, rng: np.random.Generator
+) -> Found:
+    """The worst of `rounds` rounds of neighbours, each around the worst so far.
+
+    peers: the designed partners of start.wo, which say how large f gets: the neighbours keep wo and
+    the parameters, so that they are judged by the same largest value.
+    """
+    best = start
+    for _ in range(rounds):
+        near = _neighbours(best.wi, narrow.arithmetic, rng)
+        wi = np.concatenate([near, peers])
+        points = Points(np.repeat(best.wo[None], len(wi), axis=0), wi, np.zeros(len(wi), dtype=int))
+        found = errors(narrow, wide, points, start.p)
+        i = int(np.argmax(found.own[: len(near)]))
+        if found.own[i] > best.own:
+            best = at(points, start.p, found, i)
+    return best
+
+
+def _neighbours(w: Array, arithmetic: Arithmetic, rng: np.random.Generator) -> Any:
+    """Unit vectors around w, at distances from one rounding to a tenth, above the horizon."""
+    size = 10.0 ** rng.uniform(np.log10(arithmetic.eps), -1.0, (NEIGHBOURS, 1))
+    near = w.astype(np.float64) + size * rng.standard_normal((NEIGHBOURS, 3))
+    near[:, 2] = np.abs(near[:, 2])
+    near = arithmetic.array(near / np.linalg.norm(near, axis=1)[:, None])
+    return near[near[:, 2] > 0]

@@ -53,7 +53,7 @@ def bench(
     if not (0.0 < seconds < math.inf and seeds > 0):
         raise UserError(f"seconds and seeds must be above 0, not {seconds:g} and {seeds}")
     probe.check(case.model, p)
-    truth = reference_of(case, *case.theta_o_deg)
+    truth = reference_of(case)
     if not math.isfinite(truth.value):
         raise UserError(f"model {model.name} has no finite albedo here: no relative error")
     floor = max(truth.error / abs(truth.value), 2.0**-50)
