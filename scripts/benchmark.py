@@ -19,7 +19,7 @@ from montecarlo_brdf.bench.workloads import WORKLOADS
 from montecarlo_brdf.judge.finding import versions
 from montecarlo_brdf.report.bench_markdown import markdown
 from montecarlo_brdf.report.bench_plots import bench_figure
-from montecarlo_brdf.report.plots import save
+from montecarlo_brdf.report.pictures import encoded
 
 RESULTS = Path(__file__).parent / "results"
 RATES = "rates"  # samples per second and growth of cost
@@ -48,7 +48,7 @@ def main() -> None:
         recorded.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
         print(name, "recorded", flush=True)
     (RESULTS / "bench.md").write_text(markdown(data), encoding="utf-8")
-    save(bench_figure(data), RESULTS / "bench.png")
+    (RESULTS / "bench.png").write_bytes(encoded(bench_figure(data), "png"))
 
 
 def pinned() -> None:

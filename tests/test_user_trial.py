@@ -103,20 +103,30 @@ def test_a_domain_of_no_parameter_is_told(tmp_path: Path) -> None:
 def test_checks_side_by_side_share_a_progress_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     """The second of two that came at once found a bar without a task."""
     monkeypatch.setattr(_progress, "PATIENCE", 0.0)
-    terminal = SimpleNamespace(isatty=lambda: True, write=lambda text: len(text), flush=lambda: 0)
+    monkeypatch.setattr(_progress, "INTERVAL", 0.0)
+    monkeypatch.setenv("TERM", "xterm")
+    written: list[str] = []
+
+    def write(text: str) -> int:
+        before = len(written)
+        time.sleep(0.01)
+        assert len(written) == before  # nobody else wrote meanwhile
+        written.append(text)
+        return len(text)
+
+    terminal = SimpleNamespace(isatty=lambda: True, write=write, flush=lambda: 0)
     monkeypatch.setattr(sys, "stderr", terminal)
-    import rich.progress
-
-    slow = rich.progress.Progress.add_task
-
-    def add_task(self: rich.progress.Progress, *given: object, **named: object) -> object:
-        time.sleep(0.05)
-        return slow(self, *given, **named)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(rich.progress.Progress, "add_task", add_task)
     with _progress.progress("test") as update, concurrent.futures.ThreadPoolExecutor(4) as pool:
         for done in [pool.submit(update, 0.1 * k) for k in range(8)]:
             done.result()
+    assert len(written) > 1 and written[-1] == _progress.ERASE
+    assert all(text.startswith(_progress.ERASE) for text in written)
+
+
+def test_a_progress_bar_is_no_wider_than_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert " 25% 9 s left" in _progress.line("furnace", 0.25, 3.0)
+    monkeypatch.setenv("COLUMNS", "20")
+    assert len(_progress.line("furnace", 0.25, 3.0)) < 20
 
 
 def test_no_progress_without_stderr(monkeypatch: pytest.MonkeyPatch) -> None:

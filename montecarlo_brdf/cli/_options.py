@@ -143,7 +143,7 @@ def seed_of(text: str) -> int:
 def import_format(form: str) -> None:
     """Have at hand what takes longest to import of what `deliver` needs."""
     if form == "text":
-        from montecarlo_brdf.report import text  # noqa: F401
+        from montecarlo_brdf.cli import _terminal  # noqa: F401
 
 
 def deliver(
@@ -154,9 +154,10 @@ def deliver(
         report.settings["inconclusive"] = inconclusive
     write_exports(report, export)
     if form == "text":
-        from montecarlo_brdf.report.text import show
+        from montecarlo_brdf.cli import _terminal
+        from montecarlo_brdf.report import text
 
-        show(report, verbose)
+        _terminal.tell(text.render(report, verbose, _terminal.width(), _terminal.colour()))
     else:
         click.echo(formats.render(report, form), nl=False)
     if form == "github":

@@ -59,9 +59,9 @@ def run_all(options: dict[str, Any], given: Sequence[str]) -> int:
     return code if earlier is None else _difference(report, earlier)
 
 
-def _difference(report: Report, earlier: dict[str, Any]) -> int:
+def _difference(report: Report, earlier: Report) -> int:
     """Tell on stderr what changed; the exit code counts only what got worse."""
-    found = baseline.changes(report.to_dict(), earlier)
+    found = baseline.changes(report, earlier)
     for change in found:
         click.echo(str(change), err=True)
     worse = sum(change.kind in baseline.KINDS[:2] for change in found)

@@ -33,14 +33,16 @@ def run_stress(options: dict[str, Any]) -> int:
         return show_point(models[0], sets, options["at"])
     names = options["precisions"].split(",") if options["precisions"] else None
     with progress(f"stress {', '.join(m.name for m in models)}") as update:
-        report, found = stressed(
+        report, _ = stressed(
             models, sets, names, options["max_error"], options["quick"], update
         )
     if options["plot"]:
-        from montecarlo_brdf.report.plots import plot
+        from montecarlo_brdf.cli._pictures import plot
 
-        plot(report.to_dict(), options["plot"])
-    return deliver(report, found, options)
+        plot(report, options["plot"])
+    return _options.deliver(
+        report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
+    )
 
 
 def models_of(options: dict[str, Any]) -> list[Model]:
@@ -48,19 +50,6 @@ def models_of(options: dict[str, Any]) -> list[Model]:
     if bool(options["spec"]) == bool(options["compare"]):
         raise UserError("stress takes either --model MODEL or --compare A B")
     return [load(spec) for spec in options["compare"] or [options["spec"]]]
-
-
-def deliver(report: Any, found: Any, options: dict[str, Any]) -> int:
-    """Text from the measurements; everything else as any report."""
-    if options["form"] != "text":
-        return _options.deliver(report, options["form"], options["export_json"], None, False)
-    from montecarlo_brdf.files import write_text
-    from montecarlo_brdf.report.stress import show
-
-    if options["export_json"] is not None:
-        write_text(options["export_json"], report.to_json())
-    show(report, found)
-    return int(report.exit_code)
 
 
 def show_point(model: Model, sets: Any, text: str) -> int:

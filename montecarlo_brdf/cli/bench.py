@@ -43,10 +43,9 @@ def command(**options: Any) -> int:
     from montecarlo_brdf.bench import measure, throughput
     from montecarlo_brdf.bench.workloads import WORKLOADS
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.files import check_writable, write_text
+    from montecarlo_brdf.files import check_writable, write_bytes, write_text
     from montecarlo_brdf.judge.finding import versions
     from montecarlo_brdf.report.bench_markdown import markdown
-    from montecarlo_brdf.report.plots import save
 
     paths = [options[k] for k in ("export_json", "tables", "plot")]
     for path in filter(None, paths):
@@ -68,8 +67,9 @@ def command(**options: Any) -> int:
         write_text(options["tables"], markdown(data))
     if options["plot"]:
         from montecarlo_brdf.report.bench_plots import bench_figure
+        from montecarlo_brdf.report.pictures import encoded, kind_of
 
-        save(bench_figure(data), options["plot"])
+        write_bytes(options["plot"], encoded(bench_figure(data), kind_of(options["plot"])))
     return 0
 
 

@@ -47,9 +47,9 @@ def command(**options: Any) -> int:
     needed for errors of 1e-3, 1e-6 and 1e-9; in brackets where that is extrapolated.
     """
     from montecarlo_brdf import loading
+    from montecarlo_brdf.cli._pictures import kind_of, plot
     from montecarlo_brdf.cli._progress import progress
     from montecarlo_brdf.cli._values import number, parameter_sets
-    from montecarlo_brdf.report.plots import kind_of, plot
     from montecarlo_brdf.verify.converge import converge
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])
@@ -70,7 +70,7 @@ def command(**options: Any) -> int:
             progress=update,
         )
     if options["plot"]:
-        plot(report.to_dict(), options["plot"])
+        plot(report, options["plot"])
     return _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
     )

@@ -70,13 +70,13 @@ def command(**options: Any) -> int:
 
     _options.check_outputs(options["form"], options["export_json"], options["plot"])
     if options["plot"]:
-        from montecarlo_brdf.report.plots import kind_of, plot
+        from montecarlo_brdf.cli._pictures import kind_of, plot
 
         kind_of(options["plot"])
     with partial_sums(options["resume"]) as sums:
         report = gather(options, sums)
     if options["plot"]:
-        plot(report.to_dict(), options["plot"])
+        plot(report, options["plot"])
     return _options.deliver(
         report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
     )

@@ -18,7 +18,7 @@ from montecarlo_brdf.cli import _options
               help="PNG, SVG or PDF. [-o albedo.png]")  # fmt: skip
 def command(report: Path, output: Path) -> int:
     """Draw the picture of an exported report."""
-    from montecarlo_brdf.report.plots import plot
+    from montecarlo_brdf.cli._pictures import plot
     from montecarlo_brdf.report.read import read_report
 
     _options.check_outputs("text", output)

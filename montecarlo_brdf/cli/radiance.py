@@ -66,8 +66,8 @@ def command(**options: Any) -> int:
     SCENE is a TOML file (docs/scenes.md). Per view and channel: L_o equals its analytic value or
     quadrature, and the surface's albedo is at most 1.
     """
+    from montecarlo_brdf.cli._pictures import kind_of, plot
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.report.plots import kind_of, plot
     from montecarlo_brdf.verify.common import SAMPLES
     from montecarlo_brdf.verify.radiance import radiance
 
@@ -87,7 +87,7 @@ def command(**options: Any) -> int:
             progress=update,
         )
     if options["plot"]:
-        plot(report.to_dict(), options["plot"])
+        plot(report, options["plot"])
     if options["explain"] and options["form"] == "text":
         _explain(report.settings["plan"])
     sums = [f for f in report.results[0].findings if f.quantity.startswith("sum of weights")]

@@ -96,14 +96,15 @@ def command(**options: Any) -> int:
     """
     from montecarlo_brdf.cli._progress import progress
     from montecarlo_brdf.cli._spheres import FURNACE, scenes_of
-    from montecarlo_brdf.report import spheres
+    from montecarlo_brdf.files import write_bytes
+    from montecarlo_brdf.report.pictures import spheres
     from montecarlo_brdf.scene.render import render
     from montecarlo_brdf.vectors import from_degrees
     from montecarlo_brdf.verify.common import all_threads
 
     for path in options["outputs"]:
         _options.check_outputs("text", path)
-        spheres.check_kind(path)
+        spheres.kind_of(path)
     for name, low, high in (("size", 8, 4096), ("samples", 1, 1 << 20)):
         if not low <= options[name] <= high:
             raise UserError(
@@ -128,7 +129,9 @@ def command(**options: Any) -> int:
             click.echo(_said(label, one, options["furnace"]))
     labels = [label for label, _ in cases]
     for path in options["outputs"]:
-        spheres.save(path, made, labels, FURNACE if options["furnace"] else None, columns)
+        light = FURNACE if options["furnace"] else None
+        kind = spheres.kind_of(path)
+        write_bytes(path, spheres.drawn(kind, made, labels, light, columns))
     return 0
 
 

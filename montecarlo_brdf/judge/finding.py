@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import math
 import platform
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
+
+from montecarlo_brdf.statistics import FLOOR, with_error
 
 SCHEMA = 1
 
@@ -66,6 +68,17 @@ class Finding:
     hint: str | None = None
     reproduce: str | None = None
 
+    @property
+    def number(self) -> str:
+        """The value with its error bar: '0.68899(76)', '0.8(0)' if it is exact to rounding."""
+        return with_error(self.value, self.stderr)
+
+    @property
+    def as_wished(self) -> bool:
+        """Whether the value is what is expected, to rounding: nothing happened where it is from."""
+        wish = self.expected
+        return wish is not None and abs(self.value - wish) <= FLOOR * abs(wish)
+
 
 @dataclass(frozen=True)
 class Result:
@@ -75,7 +88,7 @@ class Result:
     params: dict[str, Any]
     check: str
     findings: list[Finding]
-    curves: list[list[tuple[float, float]]] = field(default_factory=list)  # per channel, for plots
+    curves: Sequence[Sequence[tuple[float, ...]]] = ()  # per channel or precision, for plots
     source: dict[str, Any] = field(default_factory=dict)  # file and line of the user's f
 
     @property

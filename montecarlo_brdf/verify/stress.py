@@ -61,7 +61,26 @@ def stressed(
         found.append((model, many))
     results = [report_stress.result(model, many, promised) for model, many in found]
     settings = {"precisions": [c.name for c in chosen], "max_error": max_error, "quick": quick}
-    return reported("stress", settings, results, started), found
+    report = reported("stress", settings, results, started)
+    report.measured["precisions"] = [[_measured(o) for o in many] for _, many in found]
+    return report, found
+
+
+def _measured(o: Outcome) -> dict[str, Any]:
+    """What a precision did to a model, in numbers; NaN where no value of the parameter is safe."""
+    parameter, safe = o.safe or (None, None)
+    return {
+        "name": o.precision,
+        "eps": o.eps,
+        "points": o.points,
+        "worst": o.worst.own if o.worst else 0.0,
+        "allowed": o.tolerance,
+        "with_inputs": o.worst_total.total if o.worst_total else 0.0,
+        **o.counts,
+        "parameter": parameter,
+        "safe": safe,
+        "length": o.draws.length if o.draws else None,
+    }
 
 
 def _share(progress: Progress | None, place: int, jobs: int) -> Progress | None:

@@ -11,7 +11,7 @@ from scenes import EXAMPLES, written
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.references import _irradiance
-from montecarlo_brdf.report.spheres import difference
+from montecarlo_brdf.report.pictures.spheres import difference
 from montecarlo_brdf.scene import truth
 from montecarlo_brdf.scene.camera import disk_of, in_world
 from montecarlo_brdf.scene.make import scene_of
@@ -155,11 +155,11 @@ def test_files(cli: Callable[..., Any], tmp_path: Path) -> None:
 def test_exr(tmp_path: Path) -> None:
     """What is written can be read again, also as a sky."""
     pytest.importorskip("OpenEXR")
-    from montecarlo_brdf.report.spheres import save
+    from montecarlo_brdf.report.pictures.spheres import drawn
     from montecarlo_brdf.scene.image import read_image
 
     sphere = render(read_scene(EXAMPLES / "standard.toml"), size=16)
-    save(tmp_path / "s.exr", [sphere], ["standard"], None)
+    (tmp_path / "s.exr").write_bytes(drawn("exr", [sphere], ["standard"], None))
     assert np.allclose(read_image(tmp_path / "s.exr").values, sphere.values, rtol=1e-6)
 
 
