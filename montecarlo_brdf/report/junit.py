@@ -50,8 +50,11 @@ def _suite(
         value = str(report.settings.get(key, ""))
         ElementTree.SubElement(properties, "property", name=key, value=value)
     for result in group:
+        # a dot separates packages in a class name, so those of numbers and file names must go
+        owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
         for finding, title in zip(result.findings, _titles(result), strict=True):
-            _case(suite, name, result, finding, title, outcomes)
+            test = ElementTree.SubElement(suite, "testcase", classname=owner, name=title)
+            _tell(test, result, finding, outcomes.get(Verdict(finding.verdict)))
     for key, number in _counts(suite).items():
         suite.set(key, str(number))
 
@@ -72,19 +75,10 @@ def _titles(result: Result) -> list[str]:
     return titles
 
 
-def _case(
-    suite: ElementTree.Element,
-    name: str,
-    result: Result,
-    finding: Finding,
-    title: str,
-    outcomes: dict[Verdict, str],
+def _tell(
+    test: ElementTree.Element, result: Result, finding: Finding, outcome: str | None
 ) -> None:
-    # a dot separates packages in a class name, so those of numbers and file names must go
-    owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
-    test = ElementTree.SubElement(suite, "testcase", classname=owner, name=title)
     lines = [statement(finding), *explanation(finding), *origin(result)]
-    outcome = outcomes.get(Verdict(finding.verdict))
     if outcome:
         # readers show the message alone: of what was never evaluated only the note tells anything
         told_by_note = outcome == "skipped" or finding.samples is None

@@ -29,42 +29,24 @@ def style(verdict: str) -> Style:
 
 
 VERDICT = Column("verdict", style=style)
+ESTIMATE = Column("estimate")
 #: of one finding, after the columns of its place
 FINDING = (
-    Column("quantity", fold=1),
-    Column("estimate"),
-    Column("expected", fold=3),
-    Column("tolerance", fold=4),
-    Column("resolves", fold=5),
-    Column("by", fold=6),
-    VERDICT,
+    *(Column("quantity", fold=1), ESTIMATE, Column("expected", fold=3)),
+    *(Column("tolerance", fold=4), Column("resolves", fold=5), Column("by", fold=6), VERDICT),
 )
 #: of one check
 CHECK = (
-    Column("check"),
-    Column("claims", fold=2),
-    Column("worst", fold=1, words=True),
-    Column("estimate"),
-    Column("bound", fold=3),
-    Column("where", fold=4, words=True),
-    VERDICT,
+    *(Column("check"), Column("claims", fold=2), Column("worst", fold=1, words=True), ESTIMATE),
+    *(Column("bound", fold=3), Column("where", fold=4, words=True), VERDICT),
 )
-#: of one precision
-PRECISION = (
-    Column("precision", right=True),
-    Column("points", 8, right=True),
-    Column("worst error", right=True),
-    Column("ulps", 2, right=True),
-    Column("allowed", 1, right=True),
-    Column("with rounded inputs", 7, right=True),
-    Column("NaN", 3, right=True),
-    Column("Inf", 4, right=True),
-    Column(f"<{NO_BREAK}0", 5, right=True),
-    Column("flushed", 6, right=True),
-    Column("safe from", 10, right=True),
-    Column("|sample| - 1", 9, right=True),
-    VERDICT,
-)
+#: of one precision: name -> fold
+NUMBERS = {
+    "precision": 0, "points": 8, "worst error": 0, "ulps": 2, "allowed": 1,
+    "with rounded inputs": 7, "NaN": 3, "Inf": 4, f"<{NO_BREAK}0": 5, "flushed": 6,
+    "safe from": 10, "|sample| - 1": 9,
+}  # fmt: skip
+PRECISION = (*(Column(name, fold, right=True) for name, fold in NUMBERS.items()), VERDICT)
 
 
 class Section(NamedTuple):

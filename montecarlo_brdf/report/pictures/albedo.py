@@ -30,9 +30,9 @@ def figure(report: Report) -> Figure:
     figure = Figure(figsize=(7.0, 6.0), layout="constrained")
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
     total = series(report)
-    for one, line in zip(total, style.SERIES, strict=False):
-        _albedo(top, one, line)
-        _error(bottom, one, line)
+    for one, (colour, marker) in zip(total, style.SERIES, strict=False):
+        _albedo(top, one, colour, marker)
+        _error(bottom, one, colour, marker)
     top.axhline(1.0, color=style.GREY, linewidth=0.8, linestyle=style.DOTS)
     top.set_ylabel("directional albedo A")
     top.set_ylim(0.0, 1.08 * max(1.0, top.dataLim.y1))
@@ -93,24 +93,24 @@ def _label(result: Result, channel: int | None) -> str:
     )
 
 
-def _albedo(axes: Axes, one: Series, line: style.Line) -> None:
+def _albedo(axes: Axes, one: Series, colour: str, marker: str) -> None:
     theta = style.angles(one.findings)
     values = [f.value for f in one.findings]
     bars = [style.bar(f) for f in one.findings]
     low, high = ([v + s * b for v, b in zip(values, bars, strict=True)] for s in (-1.0, 1.0))
-    axes.fill_between(theta, low, high, color=line.colour, alpha=0.2, linewidth=0)
-    axes.errorbar(theta, values, bars, fmt=line.marker, color=line.colour, markersize=4, capsize=2,
+    axes.fill_between(theta, low, high, color=colour, alpha=0.2, linewidth=0)
+    axes.errorbar(theta, values, bars, fmt=marker, color=colour, markersize=4, capsize=2,
                   label=f"{one.label or 'estimate'} (+- 3 stderr)")  # fmt: skip
     if one.curve:
-        axes.plot(*zip(*one.curve, strict=False), color=line.colour, linewidth=1.0,
+        axes.plot(*zip(*one.curve, strict=False), color=colour, linewidth=1.0,
                   label="line above: reference")  # fmt: skip
 
 
-def _error(axes: Axes, one: Series, line: style.Line) -> None:
+def _error(axes: Axes, one: Series, colour: str, marker: str) -> None:
     rows = [f for f in one.findings if f.expected is not None]
-    theta, colour = style.angles(rows), line.colour
+    theta = style.angles(rows)
     errors = [style.error(f) for f in rows]
-    axes.plot(theta, errors, line.marker, color=colour, markersize=4, label="marker below: error")
+    axes.plot(theta, errors, marker, color=colour, markersize=4, label="marker below: error")
     axes.plot(theta, [max(f.stderr, style.SMALLEST) for f in rows], color=colour, linewidth=1.0,
               label="line below: stderr")  # fmt: skip
     tolerances = [math.nan if f.tolerance is None else f.tolerance for f in rows]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.judge.finding import Finding
 
@@ -17,27 +17,17 @@ ORANGE, SKY, BLACK = "#E69F00", "#56B4E9", "#000000"
 GREY = "0.4"
 
 
-class Line(NamedTuple):
-    """How one series is drawn."""
-
-    colour: str
-    marker: str
-
-
-#: one per parameter set
-SERIES = (
-    *(Line(BLUE, "o"), Line(VERMILION, "s"), Line(GREEN, "^"), Line(PURPLE, "D")),
-    *(Line(ORANGE, "v"), Line(SKY, "P"), Line(BLACK, "X")),
-)
-#: one per channel: red, green, blue, and others
-CHANNELS = (VERMILION, GREEN, BLUE, PURPLE, ORANGE, SKY, BLACK)
+#: a colour and a marker per parameter set
+SERIES = tuple(zip((BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK), "os^DvPX", strict=True))
 #: one per point set
 POINTS = {
-    "independent": Line(BLACK, "o"),
-    "stratified": Line(ORANGE, "s"),
-    "sobol": Line(BLUE, "^"),
-    "lattice": Line(VERMILION, "D"),
+    "independent": (BLACK, "o"),
+    "stratified": (ORANGE, "s"),
+    "sobol": (BLUE, "^"),
+    "lattice": (VERMILION, "D"),
 }
+#: a colour per channel: red, green, blue, and others
+CHANNELS = (VERMILION, GREEN, BLUE, PURPLE, ORANGE, SKY, BLACK)
 DASHES = (0, (4, 3))
 DOTS = (0, (1, 2))
 SMALLEST = 1e-17  # an exact value has no place on a log axis
