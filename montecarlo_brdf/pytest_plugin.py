@@ -6,9 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cli._project import Project
+    from montecarlo_brdf.cli._requests import Request
 
 FILE = "brdf-check.toml"
 PYPROJECT = "pyproject.toml"
@@ -40,33 +44,34 @@ class ProjectFile(pytest.File):
             project = read(self.path)
         except UserError as error:
             raise self.CollectError(str(error)) from error
-        for job in project.jobs:
-            for one in job.single():
-                for check in one.checks or names():
+        for request in project.requests:
+            for one in request.single():
+                for check in one.terms.names or names():
                     name = f"{one.title()} {check}"
                     yield CheckItem.from_parent(
-                        self, name=name, job=one._replace(checks=(check,)), project=project
+                        self, name=name, request=one.only(check), project=project
                     )
 
 
 class CheckItem(pytest.Item):
     """One check of one model with one parameter set."""
 
-    def __init__(self, *, job: Any, project: Any, **rest: Any) -> None:
+    def __init__(self, *, request: Request, project: Project, **rest: Any) -> None:
         super().__init__(**rest)
-        self.job, self.project = job, project
+        self.request, self.project = request, project
 
     def runtest(self) -> None:
         """Fail if a claim is refuted, or undecided unless the file says that this passes."""
+        from montecarlo_brdf.judge.finding import Policy, Verdict
         from montecarlo_brdf.testing import require
-        from montecarlo_brdf.verify.common import Deadline
+        from montecarlo_brdf.verify.supervision import Deadline
 
         limit = self.project.max_time
-        report = self.job.run(deadline=Deadline(limit) if limit else None)
+        report = self.request.run(deadline=Deadline(limit) if limit else None)
         if report.measured["interrupted"]:
             raise KeyboardInterrupt
-        require(report, self.project.inconclusive or "fail")
-        if all(f.verdict == "skipped" for r in report.results for f in r.findings):
+        require(report, self.project.inconclusive or Policy.FAIL)
+        if all(f.verdict == Verdict.SKIPPED for r in report.results for f in r.findings):
             notes = dict.fromkeys(f.note for r in report.results for f in r.findings if f.note)
             pytest.skip("; ".join(notes) or "nothing to check")
 

@@ -26,8 +26,8 @@ from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.model_file import build
 from montecarlo_brdf.report.sentences import case, failures
-from montecarlo_brdf.verify.common import Deadline
 from montecarlo_brdf.verify.run import run
+from montecarlo_brdf.verify.supervision import Deadline
 
 __all__ = [
     "assert_checks",

@@ -30,7 +30,7 @@ from montecarlo_brdf.checks import _draws, _truth
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.models import ggx
-from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
+from montecarlo_brdf.verify.run import SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "power.json"
 THETA = 45.0
@@ -79,7 +79,7 @@ def run(model: Any, check: str, findings: tuple[str, ...], seed: int) -> str:
     _truth.quadrature.cache_clear()
     p = model.parameters()
     case = Case(model, p, [THETA], seed=seed)
-    plan = Plan(samples=RUN_SAMPLES, seed=seed)
+    plan = Plan(samples=SAMPLES, seed=seed)
     verdicts = []
     for claim in checks.find(check).claims(case):
         if claim.quantity in findings:

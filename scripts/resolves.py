@@ -28,7 +28,7 @@ from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import MeanClaim
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.mean import OF_F_ALONE, OF_SAME_F
-from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
+from montecarlo_brdf.verify.run import SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "resolves.json"
 CASES = (
@@ -79,13 +79,13 @@ def _scaled(m: Measurement, factor: float) -> Measurement:
 def refuted(claim: MeanClaim, factor: float, seeds: int) -> int:
     """How many of `seeds` seeds refute the scaled model."""
     wrong = scaled(claim, factor)
-    plans = (Plan(samples=RUN_SAMPLES, seed=seed) for seed in range(1, seeds + 1))
+    plans = (Plan(samples=SAMPLES, seed=seed) for seed in range(1, seeds + 1))
     return sum(decide(wrong, plan).verdict == "fail" for plan in plans)
 
 
 def examined(claim: MeanClaim, seeds: int) -> dict[str, Any]:
     """How often each scaling is refuted."""
-    finding = decide(claim, Plan(samples=RUN_SAMPLES))
+    finding = decide(claim, Plan(samples=SAMPLES))
     assert finding.resolves and claim.expected
     relative = finding.resolves / abs(claim.expected.value)
     counts = {

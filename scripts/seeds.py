@@ -26,8 +26,7 @@ from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import FitClaim, MeanClaim
 from montecarlo_brdf.judge.decide import decide
-from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
-from montecarlo_brdf.verify.run import RUN_ANGLES
+from montecarlo_brdf.verify.run import ANGLES, SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "seeds.json"
 CHECKS = ("furnace", "energy", "radiance", "pdf", "sampling")
@@ -37,7 +36,7 @@ def claims(model: Any, check: str) -> list[Any]:
     """The random claims of a check."""
     one = model.parameters()
     variant = model.of(one)
-    case = Case(variant, one, RUN_ANGLES, free=searched(variant, {}))
+    case = Case(variant, one, ANGLES, free=searched(variant, {}))
     found = checks.find(check).claims(case)
     return [c for c in found if isinstance(c, MeanClaim | FitClaim)]
 
@@ -50,7 +49,7 @@ def asked(model: Any, check: str, first: int, seeds: int) -> dict[str, Any]:
     for seed in range(first + 1, seeds + 1):
         for claim in asking:
             known = model.disclaims.get(claim.property)
-            finding = decide(claim, Plan(samples=RUN_SAMPLES, seed=seed), known)
+            finding = decide(claim, Plan(samples=SAMPLES, seed=seed), known)
             counts[finding.verdict] += 1
             if finding.verdict in ("fail", "inconclusive"):
                 other[f"{finding.verdict}: {finding.quantity} {dict(finding.where)}"] += 1

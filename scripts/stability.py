@@ -16,9 +16,9 @@ from typing import Any
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.files import write_text
-from montecarlo_brdf.report.stress import reproduction
 from montecarlo_brdf.stability import arithmetic, designed
-from montecarlo_brdf.stability.stress import Outcome, outcome
+from montecarlo_brdf.stability.claims import reproduction
+from montecarlo_brdf.stability.stress import Loss, loss
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "scripts" / "results" / "stability.json"
@@ -30,7 +30,7 @@ def measured(name: str, precision: str) -> dict[str, Any]:
     model, one = loading.load(name), arithmetic.precision(precision)
     sets = designed.parameters(model)
     started = time.process_time()
-    found = outcome(model, sets, one)
+    found = loss(model, sets, one)
     return {
         "sets": len(sets),
         "points": found.points,
@@ -45,7 +45,7 @@ def measured(name: str, precision: str) -> dict[str, Any]:
     }
 
 
-def _worst(model: Any, found: Outcome) -> dict[str, Any]:
+def _worst(model: Any, found: Loss) -> dict[str, Any]:
     w = found.worst
     if w is None:
         return {"worst": 0.0}
@@ -53,7 +53,7 @@ def _worst(model: Any, found: Outcome) -> dict[str, Any]:
     return {"worst": w.own, "value": w.value, "truth": w.truth, "reproduce": place}
 
 
-def _draws(found: Outcome) -> dict[str, float] | None:
+def _draws(found: Loss) -> dict[str, float] | None:
     d = found.draws
     if d is None:
         return None

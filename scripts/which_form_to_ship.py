@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.stability import arithmetic, designed, specimens
-from montecarlo_brdf.stability.stress import Outcome, outcome
+from montecarlo_brdf.stability.stress import Loss, loss
 
 PAIRS = (
     ("textbook_ggx", "schlick_ggx"),
@@ -31,7 +31,7 @@ in single, 1e-13 in double and 0.1 in half precision.
 """
 
 
-def cell(found: Outcome) -> str:
+def cell(found: Loss) -> str:
     error = found.worst.own if found.worst else 0.0
     name, safe = found.safe or ("", math.nan)
     shown = "NaN or Inf" if math.isinf(error) else f"{error:.1e}"
@@ -41,7 +41,7 @@ def cell(found: Outcome) -> str:
 def row(name: str) -> str:
     model: Any = specimens.load(name)
     sets = designed.parameters(model, quick=True)
-    found = [outcome(model, sets, arithmetic.precision(p), quick=True) for p in PRECISIONS]
+    found = [loss(model, sets, arithmetic.precision(p), quick=True) for p in PRECISIONS]
     return f"| `{name}` | " + " | ".join(map(cell, found)) + " |"
 
 

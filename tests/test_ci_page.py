@@ -34,9 +34,10 @@ def test_the_file_shown_is_read(tmp_path: Path) -> None:
     (tmp_path / "brdf-check.toml").write_text(block("toml"), encoding="utf-8")
     project = _project.read(tmp_path / "brdf-check.toml")
     assert project.max_time == 300
-    sets = [len(job.p or ()) for job in project.jobs if job.checks and "furnace" in job.checks]
+    asked = [r for r in project.requests if r.terms.names and "furnace" in r.terms.names]
+    sets = [len(r.p or ()) for r in asked]
     assert sets == [0, 3, 0]
-    assert {job.tolerance for job in project.jobs} == {None, 1e-3, 1e-2}
+    assert {r.terms.tolerance for r in project.requests} == {None, 1e-3, 1e-2}
 
 
 def test_all_keys_formats_and_assertions_are_told() -> None:

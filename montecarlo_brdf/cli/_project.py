@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from montecarlo_brdf import checks, loading
-from montecarlo_brdf.cli._jobs import Job, with_parameters
+from montecarlo_brdf.cli._requests import Request, Terms, request
 from montecarlo_brdf.cli._values import numbers
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.judge.finding import Policy
+from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.scene.toml import Path_, Table, parse
 
@@ -27,9 +29,9 @@ SHARED = ("checks", "theta_o", "phi_o", "points", "samples", "seed", "tolerance"
 class Project(NamedTuple):
     """What a file asks for."""
 
-    jobs: list[Job]
+    requests: list[Request]
     max_time: float | None
-    inconclusive: str | None
+    inconclusive: Policy | None
 
 
 class Section(Table):
@@ -66,56 +68,57 @@ def speaks(path: Path) -> bool:
 
 
 def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
-    """The jobs of a file; `overrides` (fields of Job) stand above what it says."""
+    """The requests of a file; `overrides` (fields of Terms) stand above what it says."""
     data, text = parse(path)
     at: Path_ = INSIDE if path.name == PYPROJECT else ()
     for name in at:
         data = data.get(str(name), {})
     top = Section(path, text, data, at)
     limit = top.number("max_time", low=1e-3) if "max_time" in data else None
-    inconclusive = "inconclusive" in data and top.choice("inconclusive", ("pass", "fail"))
+    policy = Policy(top.choice("inconclusive", Policy)) if "inconclusive" in data else None
     top.know("inconclusive", "max_time", *SHARED)
-    shared, tolerances = _shared(top, {}, {})
+    terms, tolerances = _shared(top, Terms(), {})
     entries = top.tables("models")
     top.done()
     if not entries:
         raise top.error('there is nothing to check: add [[models]] with model = "ggx"')
-    jobs = [job for e in entries for job in _jobs(e, shared, tolerances, overrides or {})]
-    return Project(jobs, limit, inconclusive or None)
+    requests = [r for e in entries for r in _requests(e, terms, tolerances, overrides or {})]
+    return Project(requests, limit, policy)
 
 
-def _jobs(
-    entry: Table, shared: dict[str, Any], tolerances: dict[str, float], overrides: Mapping[str, Any]
-) -> Iterator[Job]:
-    """The jobs of one [[models]]: one for each tolerance that some of its checks have."""
+def _requests(
+    entry: Table, terms: Terms, tolerances: dict[str, float], overrides: Mapping[str, Any]
+) -> Iterator[Request]:
+    """The requests of one [[models]]: one for each tolerance that some of its checks have."""
     entry.know("model", "params", "against", *SHARED)
-    shared, tolerances = _shared(entry, shared, tolerances)
+    terms, tolerances = _shared(entry, terms, tolerances)
     model = _model(entry, "model")
     if "against" in entry.data:
-        shared["against"] = _model(entry, "against")
+        terms = terms._replace(against=_model(entry, "against"))
     assignments = _assignments(entry)
     entry.done()
+    terms = terms._replace(**overrides)
     try:
-        job = with_parameters(model, assignments, {**shared, **overrides})
+        whole = request(model, assignments, terms)
     except UserError as error:
         raise entry.error(str(error), "params") from error
-    names = job.checks or tuple(checks.names())
     if "tolerance" in overrides or not tolerances:
-        yield job
+        yield whole
         return
-    for tolerance in dict.fromkeys(tolerances.get(n, job.tolerance) for n in names):
-        same = tuple(n for n in names if tolerances.get(n, job.tolerance) == tolerance)
-        yield job._replace(checks=same, tolerance=tolerance)
+    names = terms.names or tuple(checks.names())
+    for tolerance in dict.fromkeys(tolerances.get(n, terms.tolerance) for n in names):
+        same = tuple(n for n in names if tolerances.get(n, terms.tolerance) == tolerance)
+        yield whole._replace(terms=terms._replace(names=same, tolerance=tolerance))
 
 
 def _shared(
-    table: Table, above: dict[str, Any], tolerances: dict[str, float]
-) -> tuple[dict[str, Any], dict[str, float]]:
-    """What may stand at the top and in [[models]]: fields of Job, and a tolerance per check."""
-    found = dict(above)
+    table: Table, above: Terms, tolerances: dict[str, float]
+) -> tuple[Terms, dict[str, float]]:
+    """What may stand at the top and in [[models]]: terms, and a tolerance per check."""
+    found: dict[str, Any] = {}
     data = table.data
     if "checks" in data:
-        found["checks"] = _checks(table, "checks")
+        found["names"] = _checks(table, "checks")
     if "theta_o" in data:
         found["theta_o_deg"] = _angles(table)
     if "phi_o" in data:
@@ -127,7 +130,7 @@ def _shared(
             found[key] = _whole(table, key, low, high)
     if "tolerance" in data:
         found["tolerance"] = table.number("tolerance", low=0.0, high=1.0 - 1e-12)
-    return found, {**tolerances, **_tolerances(table)}
+    return above._replace(**found), {**tolerances, **_tolerances(table)}
 
 
 def _checks(table: Table, key: str) -> tuple[str, ...]:
@@ -171,7 +174,7 @@ def _whole(table: Table, key: str, low: int, high: int) -> int:
     return value
 
 
-def _model(table: Table, key: str) -> Any:
+def _model(table: Table, key: str) -> Model:
     """A model by name or by a path that starts at the file's folder."""
     spec = table.text_of(key)
     folder = table.file.parent
@@ -192,7 +195,7 @@ def _assignments(entry: Table) -> list[str]:
     return [f"{name}={_text(params, name, value)}" for name, value in params.data.items()]
 
 
-def _text(params: Table, name: str, value: Any) -> str:
+def _text(params: Table, name: str, value: object) -> str:
     values = value if isinstance(value, list) else [value]
     words = ["/".join(map(str, v)) if isinstance(v, list) else v for v in values]
     if not words or any(isinstance(w, (bool, dict)) for w in words):

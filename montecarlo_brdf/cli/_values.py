@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import secrets
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -63,11 +64,13 @@ class Whole(click.ParamType):
 
     name = "number"
 
-    def convert(self, value: Any, param: Any, ctx: Any) -> int:
+    def convert(
+        self, value: str | int, param: click.Parameter | None, ctx: click.Context | None
+    ) -> int:
         """The number; its range is checked where it is used."""
         if isinstance(value, int):
             return value
-        number = _whole_of(str(value).replace("_", ""))
+        number = _whole_of(value.replace("_", ""))
         if number is None:
             self.fail(f"{value!r} is not a whole number (write 65536, 2^16 or 1e6)", param, ctx)
         return number
@@ -88,6 +91,38 @@ def _whole_of(text: str) -> int | None:
     return int(value) if value.is_integer() else None
 
 
+def read_seed(text: str, what: str) -> int:
+    """A seed, drawn and told if it is 'random', or a UserError."""
+    if text == "random":
+        drawn = secrets.randbits(32)
+        click.echo(f"seed {drawn}", err=True)
+        return drawn
+    found = whole(text)
+    if found is None or found >= 1 << 64:
+        allowed = "a whole number from 0 to 2^64 - 1, or random"
+        raise UserError(f"{what} must be {allowed}, not {text!r}")
+    return found
+
+
+def listed(text: str, what: str) -> str | list[str]:
+    """'all', or names separated by commas; whether they exist is checked where they are used."""
+    return text if text == "all" else [name.strip() for name in text.split(",")]
+
+
+class Read(click.ParamType):
+    """What a function makes of a text; it gets the option's name for its complaint."""
+
+    name = "text"
+
+    def __init__(self, function: Callable[[str, str], Any]) -> None:
+        self._function = function
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: object) -> Any:
+        """The value; its range is checked where it is used."""
+        what = max(param.opts, key=len).lstrip("-") if param else ""
+        return self._function(value, what) if isinstance(value, str) else value
+
+
 class Number(click.ParamType):
     """A finite number; its range, here only told, is checked where it is used."""
 
@@ -96,7 +131,9 @@ class Number(click.ParamType):
     def __init__(self, allowed: str = "that is finite") -> None:
         self.allowed = allowed
 
-    def convert(self, value: Any, param: Any, ctx: Any) -> float:
+    def convert(
+        self, value: str | float, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
         """The number."""
         try:
             return number(str(value), "")
@@ -132,18 +169,26 @@ def _axis(model: Model, assignment: str) -> tuple[str, list[Any]]:
         raise UserError(f"-p takes name=value, not {assignment!r}")
     if name in model.choices:
         return name, text.split(",")
-    return name, [value for part in text.split(",") for value in _parameter(name, part.strip())]
+    return name, values_of(name, text)
 
 
-def _parameter(name: str, text: str) -> list[Any]:
+Value = str | float | tuple[str, ...]
+
+
+def values_of(name: str, text: str) -> list[Value]:
     """Values as the model will check them: it knows what is allowed and says so."""
-    if ":" in text:
-        return list(_range(text, name))
-    return [tuple(text.split("/")) if "/" in text else text]
+    found: list[Value] = []
+    for part in map(str.strip, text.split(",")):
+        if ":" in part:
+            found += _range(part, name)
+        else:
+            found.append(tuple(part.split("/")) if "/" in part else part)
+    return found
 
 
 def models_of(spec: str) -> list[str]:
     """'all', or names separated by commas."""
-    from montecarlo_brdf.loading import names
+    from montecarlo_brdf import loading
 
-    return names() if spec == "all" else [one.strip() for one in spec.split(",")]
+    found = listed(spec, "model")
+    return loading.names() if isinstance(found, str) else found

@@ -3,12 +3,14 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.model import Model
 
 EPILOG = """\b
 Examples:
@@ -21,18 +23,25 @@ Examples:
 @click.command("compare", epilog=EPILOG, short_help="Two models' values, A and R side by side.")
 @click.argument("model", metavar="A", shell_complete=_options.model_names)
 @click.argument("other", metavar="B", shell_complete=_options.model_names)
-@click.option("-p", "--param", "assignments", multiple=True, metavar="NAME=VALUE",
-              help="A parameter or choice of A, of B, or of both if both have it. [-p alpha=0.1]")
-@click.option("--theta-o", default="0,15,30,45,60,75,85", show_default=True, metavar="DEGREES",
-              help="Angles in [0, 90) of the direction that is given. [--theta-o 0:85:18]")
-@click.option("--phi-o", default="0", metavar="DEGREES", help="Its azimuth. [--phi-o 45]")
-@click.option("--tolerance", type=Number("in [0, 1)"), default=None,
-              help="Allowed relative deviation [default: 1e-6 of f, 1e-4 of A and R]. "
-              "[--tolerance 0.01]")
-@click.option("--seed", default="0", show_default=True, metavar="NUMBER",
-              help="Of the random directions: a number, or random (printed). [--seed 7]")
+@_options.parameters(help="A parameter or choice of A, of B, or of both if both have it. "
+                     "[-p alpha=0.1]")  # fmt: skip
+@_options.theta_o(default="0,15,30,45,60,75,85",
+                  help="Angles in [0, 90) of the direction that is given. [--theta-o 0:85:18]")
+@_options.phi_o(help="Its azimuth. [--phi-o 45]")
+@_options.tolerance(help="Allowed relative deviation [default: 1e-6 of f, 1e-4 of A and R]. "
+                    "[--tolerance 0.01]")  # fmt: skip
+@_options.seed(help="Of the random directions: a number, or random (printed). [--seed 7]")
 @_options.output_options
-def command(**options: Any) -> int:
+def command(
+    model: str,
+    other: str,
+    assignments: tuple[str, ...],
+    theta_o: list[float],
+    phi_o: float,
+    tolerance: float | None,
+    seed: int,
+    output: _options.Output,
+) -> int:
     """Do two models agree? The columns estimate and expected are A's and B's.
 
     f is compared over thousands of pairs of directions, the albedo A(wo) and the reverse albedo
@@ -40,28 +49,27 @@ def command(**options: Any) -> int:
     """
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.cli._values import number, numbers
     from montecarlo_brdf.verify.compare import compare
 
-    _options.check_outputs(options["form"], options["export_json"])
-    model, other = loading.load(options["model"]), loading.load(options["other"])
-    with progress(f"compare {model.name} {other.name}") as update:
+    output.check()
+    first, second = loading.load(model), loading.load(other)
+    with progress(f"compare {first.name} {second.name}") as update:
         report = compare(
-            model,
-            other,
-            pairs(model, other, options["assignments"]),
-            numbers(options["theta_o"], "theta-o"),
-            phi_o_deg=number(options["phi_o"], "phi-o"),
-            tolerance=options["tolerance"],
-            seed=_options.seed_of(options["seed"]),
+            first,
+            second,
+            pairs(first, second, assignments),
+            theta_o,
+            phi_o_deg=phi_o,
+            tolerance=tolerance,
+            seed=seed,
             progress=update,
         )
-    return _options.deliver(
-        report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
-    )
+    return _options.deliver(report, output)
 
 
-def pairs(model: Any, other: Any, assignments: Sequence[str]) -> list[tuple[Any, Any]]:
+def pairs(
+    model: Model, other: Model, assignments: Sequence[str]
+) -> list[tuple[Any, Any]]:
     """Parameter sets of both for every combination; a value goes to whichever model knows it."""
     from montecarlo_brdf.cli._values import axes
 
@@ -82,9 +90,10 @@ def pairs(model: Any, other: Any, assignments: Sequence[str]) -> list[tuple[Any,
     return found
 
 
-def known(model: Any) -> list[str]:
+def known(model: Model) -> list[str]:
     """Names of a model's parameters and choices, also those that its other choices would bring."""
-    names = [model.labels.get(n, n) for n in model.Params._fields]
+    fields: tuple[str, ...] = model.Params._fields  # type: ignore[attr-defined]
+    names = [model.labels.get(n, n) for n in fields]
     brought = [
         field
         for options in model.choices.values()

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 
 from montecarlo_brdf.cli import _options
-
-if TYPE_CHECKING:
-    from montecarlo_brdf.judge.finding import Report
-from montecarlo_brdf.cli._values import Number
+from montecarlo_brdf.cli._values import Number, Read, listed
 
 EPILOG = """\b
 Examples:
@@ -25,23 +21,14 @@ Examples:
 
 
 @click.command("furnace", epilog=EPILOG, short_help="White furnace test: albedo against angle.")
-@_options.model_option
-@click.option(
-    "--theta-o",
-    "theta_o",
-    default="0,15,30,45,60,75,85",
-    show_default=True,
-    metavar="DEGREES",
-    help="Polar angles of the viewer in [0, 90): a list, or first:last:count. [--theta-o 0:85:18]",
-)
-@click.option("--phi-o", default="0", metavar="DEGREES", help="Azimuth of the viewer. [--phi-o 45]")
-@click.option(
-    "--sampler",
-    default="all",
-    show_default=True,
-    metavar="NAMES",
-    help="all, or some of uniform, cosine, own. [--sampler cosine,own]",
-)
+@_options.model(required=True)
+@_options.parameters()
+@_options.theta_o(default="0,15,30,45,60,75,85",
+                  help="Polar angles of the viewer in [0, 90): a list, or first:last:count. "
+                  "[--theta-o 0:85:18]")  # fmt: skip
+@_options.phi_o()
+@click.option("--sampler", type=Read(listed), default="all", show_default=True, metavar="NAMES",
+              help="all, or some of uniform, cosine, own. [--sampler cosine,own]")  # fmt: skip
 @click.option("--target-error", type=Number("in [1e-13, 1)"), default=None,
               help="Sample until the 99 % interval of A is as narrow, relative to A. "
               "[--target-error 1e-6]")  # fmt: skip
@@ -54,74 +41,49 @@ Examples:
               help="Keep partial sums in FILE, every ten seconds and at Ctrl-C, and go on from "
               "them: for billions of samples. [--resume sums.json]")  # fmt: skip
 @_options.output_options
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Albedo against angle with error bars and reference, as PNG, SVG or PDF. [--plot a.png]",
+@_options.plot(
+    help="Albedo against angle with error bars and reference, as PNG, SVG or PDF. [--plot a.png]"
 )
-def command(**options: Any) -> int:
+def command(
+    spec: str,
+    assignments: tuple[str, ...],
+    theta_o: list[float],
+    phi_o: float,
+    sampler: str | list[str],
+    target_error: float | None,
+    method: str | None,
+    resume: Path | None,
+    sampling: _options.Sampling,
+    output: _options.Output,
+) -> int:
     """How much of a constant light 1 does the surface reflect, and is that what theory says?
 
     Two claims per angle: the albedo A equals its reference within the tolerance, and A <= 1. Each
     is estimated by every sampler that can be trusted for the case.
     """
-    from montecarlo_brdf.verify.resumption import partial_sums
-
-    _options.check_outputs(options["form"], options["export_json"], options["plot"])
-    if options["plot"]:
-        from montecarlo_brdf.cli._pictures import kind_of, plot
-
-        kind_of(options["plot"])
-    with partial_sums(options["resume"]) as sums:
-        report = gather(options, sums)
-    if options["plot"]:
-        plot(report, options["plot"])
-    return _options.deliver(
-        report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
-    )
-
-
-def gather(options: dict[str, Any], sums: Any = None) -> Report:
-    """One report over all models asked for."""
-    from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.cli._values import models_of
-    from montecarlo_brdf.judge.finding import Report
-
-    specs = models_of(options["spec"])
-    seed = _options.seed_of(options["seed"])
-    reports = []
-    with progress("furnace") as update:
-        for k, spec in enumerate(specs):
-            share = lambda done, k=k: update((k + done) / len(specs))  # noqa: E731
-            reports.append(_one(spec, options, seed, share, sums))
-    results = [result for r in reports for result in r.results]
-    seconds = sum(r.measured["seconds"] for r in reports)
-    return Report("furnace", reports[0].settings, results, {"seconds": seconds})
-
-
-def _one(spec: str, options: dict[str, Any], seed: int, update: Any, sums: Any) -> Report:
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._values import number, numbers, parameter_sets
+    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._values import models_of, parameter_sets
     from montecarlo_brdf.verify import furnace
-    from montecarlo_brdf.verify.common import SAMPLES
+    from montecarlo_brdf.verify.results import merged, part_of
 
-    model = loading.load(spec)
-    names = options["sampler"].split(",")
-    return furnace.furnace(
-        model,
-        parameter_sets(model, options["assignments"]),
-        numbers(options["theta_o"], "theta-o"),
-        phi_o_deg=number(options["phi_o"], "phi-o"),
-        sampler="all" if names == ["all"] else names,
-        points=options["points"],
-        samples=SAMPLES if options["samples"] is None else options["samples"],
-        seed=seed,
-        threads=options["threads"],
-        tolerance=options["tolerance"],
-        target_error=options["target_error"],
-        method=options["method"],
-        progress=update,
-        curve=bool(options["plot"] or options["export_json"]),
-        sums=sums,
-    )
+    output.check()
+    specs, reports = models_of(spec), []
+    with furnace.partial_sums(resume) as sums, progress("furnace") as update:
+        for k, one in enumerate(specs):
+            model = loading.load(one)
+            report = furnace.furnace(
+                model,
+                parameter_sets(model, assignments),
+                theta_o,
+                phi_o_deg=phi_o,
+                sampler=sampler,
+                target_error=target_error,
+                method=method,
+                progress=part_of(update, k, len(specs)),
+                curve=bool(output.plot or output.export_json),
+                sums=sums,
+                **sampling.keywords(),
+            )
+            reports.append(report)
+    return _options.deliver(merged(reports), output)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
 from montecarlo_brdf.cli import _options
@@ -17,23 +15,13 @@ from montecarlo_brdf.cli import _options
 )
 @_options.sampling_options
 @_options.output_options
-def command(**options: Any) -> int:
+def command(sampling: _options.Sampling, output: _options.Output) -> int:
     """Solid angle, projected hemisphere, powers of the cosine, Lambert under a light that is not
     constant: each estimated, with its exact value and a verdict."""
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.verify.common import SAMPLES
     from montecarlo_brdf.verify.identities import identities
 
-    _options.check_outputs(options["form"], options["export_json"])
+    output.check()
     with progress("identities") as update:
-        report = identities(
-            points=options["points"],
-            samples=SAMPLES if options["samples"] is None else options["samples"],
-            seed=_options.seed_of(options["seed"]),
-            threads=options["threads"],
-            tolerance=options["tolerance"],
-            progress=update,
-        )
-    return _options.deliver(
-        report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
-    )
+        report = identities(progress=update, **sampling.keywords())
+    return _options.deliver(report, output)

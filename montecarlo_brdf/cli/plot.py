@@ -5,8 +5,6 @@ from pathlib import Path
 
 import click
 
-from montecarlo_brdf.cli import _options
-
 
 @click.command(
     "plot",
@@ -19,8 +17,9 @@ from montecarlo_brdf.cli import _options
 def command(report: Path, output: Path) -> int:
     """Draw the picture of an exported report."""
     from montecarlo_brdf.cli._pictures import plot
+    from montecarlo_brdf.files import check_writable
     from montecarlo_brdf.report.read import read_report
 
-    _options.check_outputs("text", output)
+    check_writable(output)
     plot(read_report(report), output)
     return 0

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from montecarlo_brdf.cli import _options
 from montecarlo_brdf.errors import UserError
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.scene.scene import Scene
 
 EPILOG = """\b
 Examples:
@@ -23,109 +26,83 @@ Examples:
     "radiance", epilog=EPILOG, short_help="Reflected radiance of a scene, with verdicts."
 )
 @click.argument("scene", required=False, type=click.Path(path_type=Path))
-@click.option(
-    "--model",
-    "spec",
-    metavar="MODEL",
-    shell_complete=_options.model_names,
-    help="Without a scene file: the model of the surface. [--model ggx]",
+@_options.model(help="Without a scene file: the model of the surface. [--model ggx]")
+@_options.parameters(
+    help="A parameter of the surface's model; a/b/c makes a colour. [-p alpha=0.1]"
 )
-@click.option(
-    "-p",
-    "--param",
-    "assignments",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="A parameter of the surface's model; a/b/c makes a colour. [-p alpha=0.1]",
-)
-@click.option(
-    "--environment",
-    metavar="SKY",
-    help="Without a scene file: constant:L, cosine:EXPONENT, cap:HALF_ANGLE, gradient, "
-    "quadratic, linear:A:B, each with :TILT in degrees, or image:FILE. [--environment cosine:8]",
-)
-@click.option(
-    "--theta-o",
-    "theta_o",
-    metavar="DEGREES",
-    help="Polar angles of the viewer in [0, 90) instead of the scene's. [--theta-o 0:85:18]",
-)
+@click.option("--environment", metavar="SKY",
+              help="Without a scene file: constant:L, cosine:EXPONENT, cap:HALF_ANGLE, gradient, "
+              "quadratic, linear:A:B, each with :TILT in degrees, or image:FILE. "
+              "[--environment cosine:8]")  # fmt: skip
+@_options.theta_o(help="Polar angles of the viewer in [0, 90) instead of the scene's. "
+                  "[--theta-o 0:85:18]")  # fmt: skip
 @click.option("--explain", is_flag=True, help="Print what is evaluated, what is skipped, and why.")
 @click.option("--no-skip", is_flag=True, help="Compute all of it the long way.")
 @_options.sampling_options
 @_options.output_options
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="L_o against angle with error bars and truth, as PNG, SVG or PDF. [--plot r.png]",
+@_options.plot(
+    help="L_o against angle with error bars and truth, as PNG, SVG or PDF. [--plot r.png]"
 )
-def command(**options: Any) -> int:
+def command(
+    scene: Path | None,
+    spec: str | None,
+    assignments: tuple[str, ...],
+    environment: str | None,
+    theta_o: list[float] | None,
+    explain: bool,
+    no_skip: bool,
+    sampling: _options.Sampling,
+    output: _options.Output,
+) -> int:
     """What radiance does a surface reflect towards the viewer, and is that what theory says?
 
     SCENE is a TOML file (docs/scenes.md). Per view and channel: L_o equals its analytic value or
     quadrature, and the surface's albedo is at most 1.
     """
-    from montecarlo_brdf.cli._pictures import kind_of, plot
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.verify.common import SAMPLES
-    from montecarlo_brdf.verify.radiance import radiance
+    from montecarlo_brdf.judge.finding import Verdict
+    from montecarlo_brdf.scene.make import with_views
+    from montecarlo_brdf.verify.radiance import WEIGHTS, radiance
 
-    _options.check_outputs(options["form"], options["export_json"], options["plot"])
-    if options["plot"]:
-        kind_of(options["plot"])
-    made = scene_from(options)
+    output.check()
+    made = scene_from(scene, spec, environment, assignments)
+    if theta_o is not None:
+        made = with_views(made, theta_o)
     with progress(f"radiance {made.name}") as update:
-        report = radiance(
-            made,
-            skip=not options["no_skip"],
-            points=options["points"],
-            samples=SAMPLES if options["samples"] is None else options["samples"],
-            seed=_options.seed_of(options["seed"]),
-            threads=options["threads"],
-            tolerance=options["tolerance"],
-            progress=update,
-        )
-    if options["plot"]:
-        plot(report, options["plot"])
-    if options["explain"] and options["form"] == "text":
+        report = radiance(made, skip=not no_skip, progress=update, **sampling.keywords())
+    if explain and output.form == _options.TEXT:
         _explain(report.settings["plan"])
-    sums = [f for f in report.results[0].findings if f.quantity.startswith("sum of weights")]
-    for total in dict.fromkeys(f"{f.value:g}" for f in sums if f.verdict == "fail"):
+    sums = [f for f in report.results[0].findings if f.quantity == WEIGHTS]
+    for total in dict.fromkeys(f"{f.value:g}" for f in sums if f.verdict == Verdict.FAIL):
         click.echo(f"Warning: the weights of the lobes add up to {total} > 1", err=True)
-    return _options.deliver(
-        report, options["form"], options["export_json"], options["inconclusive"], options["verbose"]
-    )
+    return _options.deliver(report, output)
 
 
-def scene_from(options: dict[str, Any]) -> Any:
+def scene_from(
+    path: Path | None, spec: str | None, sky: str | None, assignments: tuple[str, ...]
+) -> Scene:
     """The scene of a file, or of --model and --environment."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._values import numbers, parameter_sets
-    from montecarlo_brdf.scene.make import scene_of, with_views
+    from montecarlo_brdf.cli._values import parameter_sets
+    from montecarlo_brdf.scene.make import scene_of
     from montecarlo_brdf.scene.read import read_scene
 
-    path, spec, sky = options["scene"], options["spec"], options.get("environment")
-    if path is not None and (spec or sky):
-        raise UserError("give a scene file, or --model and --environment, not both")
-    if path is None and not (spec and sky):
-        raise UserError("give a scene file, or both --model and --environment")
     if path is not None:
-        made = read_scene(path, **single_values(options["assignments"]))
-    else:
-        model = loading.load(spec)
-        sets = parameter_sets(model, options["assignments"])
-        if len(sets) != 1:
-            raise UserError(f"radiance takes one value per parameter, not {len(sets)} sets")
-        made = scene_of(model, sets[0], str(sky))
-    if options["theta_o"]:
-        made = with_views(made, numbers(options["theta_o"], "theta-o"))
-    return made
+        if spec or sky:
+            raise UserError("give a scene file, or --model and --environment, not both")
+        return read_scene(path, **single_values(assignments))
+    if not (spec and sky):
+        raise UserError("give a scene file, or both --model and --environment")
+    model = loading.load(spec)
+    sets = parameter_sets(model, assignments)
+    if len(sets) != 1:
+        raise UserError(f"radiance takes one value per parameter, not {len(sets)} sets")
+    return scene_of(model, sets[0], sky)
 
 
-def single_values(assignments: Any) -> dict[str, Any]:
+def single_values(assignments: tuple[str, ...]) -> dict[str, str | tuple[str, ...]]:
     """-p name=value for the surface of a scene file; the model checks the values."""
-    found: dict[str, Any] = {}
+    found: dict[str, str | tuple[str, ...]] = {}
     for assignment in assignments:
         name, equals, text = assignment.partition("=")
         if not equals or not text:

@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+import itertools
+import math
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from montecarlo_brdf.cli import _options
 from montecarlo_brdf.cli._values import Whole
 from montecarlo_brdf.errors import UserError
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.model import Model
+    from montecarlo_brdf.scene.render import Sphere
+    from montecarlo_brdf.scene.scene import Scene
+
+FURNACE = 0.5  # radiance of the furnace: a lossless sphere disappears in its grey
+MOST_SPHERES = 12
 
 EPILOG = """\b
 Examples:
@@ -23,122 +34,91 @@ Examples:
     "render", epilog=EPILOG, short_help="A sphere under a scene's light; the furnace picture."
 )
 @click.argument("scene", required=False, type=click.Path(path_type=Path))
-@click.option(
-    "-o",
-    "--output",
-    "outputs",
-    type=click.Path(path_type=Path),
-    multiple=True,
-    required=True,
-    metavar="FILE",
-    help="A .png picture; .npy or .exr for linear values. [-o sphere.png]",
-)
-@click.option(
-    "--model",
-    "spec",
-    metavar="MODEL",
-    shell_complete=_options.model_names,
-    help="Without a scene file: the model of the surface. [--model ggx]",
-)
-@click.option(
-    "-p",
-    "--param",
-    "assignments",
-    multiple=True,
-    metavar="NAME=VALUE",
+@click.option("-o", "--output", "outputs", type=click.Path(path_type=Path), multiple=True,
+              required=True, metavar="FILE",
+              help="A .png picture; .npy or .exr for linear values. [-o sphere.png]")  # fmt: skip
+@_options.model(help="Without a scene file: the model of the surface. [--model ggx]")
+@_options.parameters(
     help="A parameter; lists and ranges make a row of spheres, two of them a grid. "
-    "[-p alpha=0.1:1:5]",
+    "[-p alpha=0.1:1:5]"
 )
-@click.option(
-    "--environment",
-    metavar="SKY",
-    help="Without a scene file: the sky, as for radiance. [--environment cap:20:45]",
-)
-@click.option(
-    "--furnace",
-    is_flag=True,
-    help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.",
-)
-@click.option(
-    "--size", type=Whole(), default="512", show_default=True, help="Pixels across. [--size 256]"
-)
-@click.option(
-    "--samples",
-    type=Whole(),
-    default="256",
-    show_default=True,
-    help="Samples per pixel where pixels are sampled. [--samples 1024]",
-)
-@click.option(
-    "--camera",
-    metavar="TILT[:AZIMUTH]",
-    help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]  "
-    "[default: where the scene says, else on the axis]",
-)
-@click.option(
-    "--seed",
-    default="0",
-    show_default=True,
-    metavar="NUMBER",
-    help="A number, or random. [--seed 7]",
-)
-@click.option(
-    "--threads",
-    type=Whole(),
-    default=None,
-    help="Threads; results do not depend on it. [--threads 1]",
-)
-def command(**options: Any) -> int:
+@click.option("--environment", metavar="SKY", help="Without a scene file: the sky, as for "
+              "radiance. [--environment cap:20:45]")  # fmt: skip
+@click.option("--furnace", is_flag=True,
+              help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.")
+@click.option("--size", type=Whole(), default="512", show_default=True,
+              help="Pixels across. [--size 256]")  # fmt: skip
+@click.option("--samples", type=Whole(), default="256", show_default=True,
+              help="Samples per pixel where pixels are sampled. [--samples 1024]")  # fmt: skip
+@click.option("--camera", metavar="TILT[:AZIMUTH]",
+              help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]  "
+              "[default: where the scene says, else on the axis]")  # fmt: skip
+@_options.seed(help="A number, or random. [--seed 7]")
+@_options.threads(help="Threads; results do not depend on it. [--threads 1]")
+def command(
+    scene: Path | None,
+    outputs: tuple[Path, ...],
+    spec: str | None,
+    assignments: tuple[str, ...],
+    environment: str | None,
+    furnace: bool,
+    size: int,
+    samples: int,
+    camera: str | None,
+    seed: int,
+    threads: int | None,
+) -> int:
     """Shade a sphere per pixel from the estimators, and say how exact the picture is.
 
     With --furnace a second panel shows the signed difference to the light from -10 % to +10 %. A
     picture is no verdict: see `brdf-check furnace` and `brdf-check radiance`.
     """
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.cli._spheres import FURNACE, scenes_of
-    from montecarlo_brdf.files import write_bytes
+    from montecarlo_brdf.files import check_writable, write_bytes
     from montecarlo_brdf.report.pictures import spheres
     from montecarlo_brdf.scene.render import render
     from montecarlo_brdf.vectors import from_degrees
-    from montecarlo_brdf.verify.common import all_threads
+    from montecarlo_brdf.verify.results import part_of
+    from montecarlo_brdf.verify.settings import all_threads
 
-    for path in options["outputs"]:
-        _options.check_outputs("text", path)
+    for path in outputs:
+        check_writable(path)
         spheres.kind_of(path)
-    for name, low, high in (("size", 8, 4096), ("samples", 1, 1 << 20)):
-        if not low <= options[name] <= high:
-            raise UserError(
-                f"{name} must be a whole number from {low} to {high}, not {options[name]}"
-            )
-    camera = from_degrees(*_camera(options["camera"])) if options["camera"] else None
-    cases, columns = scenes_of(options)
+    for name, value, low, high in (("size", size, 8, 4096), ("samples", samples, 1, 1 << 20)):
+        if not low <= value <= high:
+            raise UserError(f"{name} must be a whole number from {low} to {high}, not {value}")
+    viewer = from_degrees(*_camera(camera)) if camera else None
+    if scene is not None and (spec or environment):
+        raise UserError("give a scene file, or --model and --environment, not both")
+    if scene is not None:
+        scenes, columns = _from_file(scene, assignments)
+    elif spec and (environment or furnace):
+        scenes, columns = _from_model(spec, environment or f"constant:{FURNACE}", assignments)
+    else:
+        raise UserError("give a scene file, or --model with --environment or --furnace")
     made = []
     with progress("render") as update:
-        for k, (label, scene) in enumerate(cases):
-            shown = scene.under_constant_light(FURNACE) if options["furnace"] else scene
+        for k, (label, shown) in enumerate(scenes):
             one = render(
-                shown,
-                size=options["size"],
-                samples=options["samples"],
-                seed=_options.seed_of(options["seed"]),
-                threads=options["threads"] or all_threads(),
-                camera=camera,
-                progress=lambda done, k=k: update((k + done) / len(cases)),  # type: ignore[misc]
+                shown.under_constant_light(FURNACE) if furnace else shown,
+                size=size,
+                samples=samples,
+                seed=seed,
+                threads=threads or all_threads(),
+                camera=viewer,
+                progress=part_of(update, k, len(scenes)),
             )
             made.append(one)
-            click.echo(_said(label, one, options["furnace"]))
-    labels = [label for label, _ in cases]
-    for path in options["outputs"]:
-        light = FURNACE if options["furnace"] else None
-        kind = spheres.kind_of(path)
-        write_bytes(path, spheres.drawn(kind, made, labels, light, columns))
+            click.echo(_said(label, one, furnace))
+    labels = [label for label, _ in scenes]
+    for path in outputs:
+        light = FURNACE if furnace else None
+        write_bytes(path, spheres.drawn(spheres.kind_of(path), made, labels, light, columns))
     return 0
 
 
-def _said(label: str, sphere: Any, furnace: bool) -> str:
+def _said(label: str, sphere: Sphere, furnace: bool) -> str:
     import numpy as np
-
-    from montecarlo_brdf.cli._spheres import FURNACE
 
     shown = sphere.values[sphere.inside]
     text = f"{', '.join(label.splitlines())}: L_o from {shown.min():.6g} to {shown.max():.6g}"
@@ -157,3 +137,73 @@ def _camera(text: str) -> tuple[float, ...]:
     if len(parts) > 2 or not 0.0 <= parts[0] <= 180.0:
         raise UserError(f"camera is TILT[:AZIMUTH] with a tilt in [0, 180] degrees, not {text!r}")
     return tuple(parts)
+
+
+#: scenes with their labels, one per combination of parameters, and how many stand in a row
+Page = tuple[list[tuple[str, "Scene"]], int]
+
+
+def _from_model(spec: str, sky: str, assignments: Sequence[str]) -> Page:
+    """A model under a sky, once per combination of -p values."""
+    from montecarlo_brdf import loading
+    from montecarlo_brdf.cli._values import axes, parameter_sets
+    from montecarlo_brdf.scene.make import scene_of
+
+    model = loading.load(spec)
+    columns = _columns(axes(assignments, lambda name: model))
+    scenes = [
+        (_label(spec, assignments, model.of(p), p), scene_of(model.of(p), p, sky))
+        for p in parameter_sets(model, assignments)
+    ]
+    return scenes, columns
+
+
+def _columns(listed: dict[str, list[Any]]) -> int:
+    """Spheres in a row; complains if there are too many."""
+    counts = [len(values) for values in listed.values()]
+    total = math.prod(counts)
+    if total > MOST_SPHERES:
+        raise UserError(f"{total} spheres are more than the {MOST_SPHERES} that fit a picture")
+    varied = [n for n in counts if n > 1]
+    return varied[-1] if varied else 1
+
+
+def _label(spec: str, assignments: Sequence[str], model: Model, p: Any) -> str:
+    """The model, and the parameters and choices that were given."""
+    from montecarlo_brdf.verify.results import shown_parameters
+
+    values = shown_parameters(model, p)
+    names = [a.partition("=")[0].strip() for a in assignments]
+    rows = [f"{n} = {_shown(values[n])}" for n in names if n in values]
+    return "\n".join([spec, ", ".join(rows)]) if rows else spec
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, tuple):
+        return "/".join(map(_shown, value))
+    return value if isinstance(value, str) else f"{value:.3g}"
+
+
+def _from_file(path: Path, assignments: Sequence[str]) -> Page:
+    """The scene once per combination of -p values, which replace those of its surface."""
+    from montecarlo_brdf.cli._values import values_of
+    from montecarlo_brdf.scene.read import read_scene
+
+    listed: dict[str, list[Any]] = {}
+    for assignment in assignments:
+        name, equals, text = (t.strip() for t in assignment.partition("="))
+        if not equals or not text or name in listed:
+            raise UserError(f"-p takes name=value, once per name, not {assignment!r}")
+        listed[name] = values_of(name, text)
+    columns = _columns(listed)
+    scenes = []
+    for row in itertools.product(*listed.values()):
+        scene = read_scene(path, **dict(zip(listed, row, strict=True)))
+        told = ", ".join(f"{n} = {_typed(v)}" for n, v in zip(listed, row, strict=True))
+        scenes.append((f"{scene.name}\n{told}" if told else scene.name, scene))
+    return scenes, columns
+
+
+def _typed(value: Any) -> str:
+    """A value as it was typed, a number of a range in three digits."""
+    return "/".join(value) if isinstance(value, tuple) else _shown(value)

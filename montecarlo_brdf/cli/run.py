@@ -1,12 +1,33 @@
 """brdf-check run"""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from montecarlo_brdf.cli import _options
+from montecarlo_brdf.cli._values import Read, listed
+from montecarlo_brdf.errors import UserError
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cli._project import Project
+    from montecarlo_brdf.cli._requests import Request
+    from montecarlo_brdf.judge.finding import Policy, Report
+    from montecarlo_brdf.verify.supervision import Deadline
+
+INTERRUPTED = 130
+#: options that stand above a project's file if they are given
+ABOVE = {"samples", "points", "tolerance", "seed"}
+#: options that only make sense with --model
+LOCAL = {
+    "assignments": "-p",
+    "names": "--check",
+    "theta_o": "--theta-o",
+    "phi_o": "--phi-o",
+    "against": "--against",
+}
 
 EPILOG = """\b
 Examples:
@@ -19,16 +40,17 @@ Examples:
 
 
 @click.command("run", epilog=EPILOG, short_help="Every check of one, several or all models.")
-@_options.optional_model_option
+@_options.model()
+@_options.parameters()
 @click.option("--config", type=click.Path(path_type=Path), metavar="FILE",
               help="Without --model: what to check, instead of the nearest brdf-check.toml or "
               "[tool.brdf-check] of a pyproject.toml. [--config ci/brdf-check.toml]")  # fmt: skip
-@click.option("--check", "names", default="all", show_default=True, metavar="NAMES",
-              help="Which checks, separated by commas. [--check energy,pdf]")
-@click.option("--theta-o", default="0,45,80", show_default=True, metavar="DEGREES",
-              help="Angles of the viewer in [0, 90) for checks that look at some. "
-              "[--theta-o 0:85:6]")
-@click.option("--phi-o", default="0", metavar="DEGREES", help="Azimuth of the viewer. [--phi-o 45]")
+@click.option("--check", "names", type=Read(listed), default="all", show_default=True,
+              metavar="NAMES", help="Which checks, separated by commas. [--check energy,pdf]")
+@_options.theta_o(default="0,45,80",
+                  help="Angles of the viewer in [0, 90) for checks that look at some. "
+                  "[--theta-o 0:85:6]")  # fmt: skip
+@_options.phi_o()
 @click.option("--against", metavar="MODEL",
               help="A model that it must equal in values. [--against ggx]")
 @click.option("--max-time", type=float, metavar="SECONDS",
@@ -38,10 +60,126 @@ Examples:
               "[--baseline main.json]")  # fmt: skip
 @_options.sampling_options
 @_options.output_options
-def command(**options: Any) -> int:
+def command(
+    spec: str | None,
+    assignments: tuple[str, ...],
+    config: Path | None,
+    names: str | list[str],
+    theta_o: list[float],
+    phi_o: float,
+    against: str | None,
+    max_time: float | None,
+    baseline: Path | None,
+    sampling: _options.Sampling,
+    output: _options.Output,
+) -> int:
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
     Without --model: the models and cases of the project's brdf-check.toml (docs/ci.md)."""
-    from montecarlo_brdf.cli._running import run_all
+    import math
 
-    return run_all(options, _options.given())
+    from montecarlo_brdf import loading
+    from montecarlo_brdf.cli._requests import Terms, request
+    from montecarlo_brdf.cli._values import models_of
+    from montecarlo_brdf.judge.finding import versions
+    from montecarlo_brdf.report.read import read_report
+    from montecarlo_brdf.verify.supervision import Deadline
+
+    output.check()
+    versions()  # imports what a report needs while no thread imports anything, and not after Ctrl-C
+    _options.import_format(output)
+    earlier = read_report(baseline) if baseline else None
+    if spec:
+        keywords = sampling.keywords()
+        threads = keywords.pop("threads")
+        other = loading.load(against) if against else None
+        chosen = None if isinstance(names, str) else tuple(names)
+        terms = Terms(chosen, theta_o, phi_o, other, **keywords)
+        requests = [request(loading.load(one), assignments, terms) for one in models_of(spec)]
+    else:
+        project = asked_project(config, sampling)
+        requests, threads = project.requests, sampling.threads
+        max_time = max_time or project.max_time
+        output = output._replace(inconclusive=output.inconclusive or project.inconclusive)
+    if max_time is not None and not max_time > 0.0:
+        raise UserError(f"max-time must be a positive number of seconds, not {max_time}")
+    report = gather(requests, threads, Deadline(math.inf if max_time is None else max_time))
+    return finish(report, output, earlier)
+
+
+def asked_project(config: Path | None, sampling: _options.Sampling) -> Project:
+    """The project of --config, or of the folder one stands in."""
+    from montecarlo_brdf.cli import _project
+
+    path = config or _project.find(Path())
+    if path is None:
+        raise UserError(
+            f"give --model, or a {_project.FILE} with [[models]] in this folder or one above it"
+        )
+    given = given_options()
+    local = [flag for name, flag in LOCAL.items() if name in given]
+    if local:
+        raise UserError(f"{', '.join(local)} needs --model: {path} says what to check of which")
+    return _project.read(path, {k: v for k, v in sampling._asdict().items() if k in given & ABOVE})
+
+
+def given_options() -> set[str]:
+    """The options of the current command that were given, not left at their defaults."""
+    context = click.get_current_context()
+    default = (click.core.ParameterSource.DEFAULT, click.core.ParameterSource.DEFAULT_MAP, None)
+    return {name for name in context.params if context.get_parameter_source(name) not in default}
+
+
+def gather(requests: Sequence[Request], threads: int | None, deadline: Deadline) -> Report:
+    """One report over all requests, also when it is interrupted."""
+    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.verify.results import merged, part_of
+
+    reports: list[Report] = []
+    try:
+        with progress("run") as update:
+            for k, one in enumerate(requests):
+                reports.append(one.run(deadline, threads, part_of(update, k, len(requests))))
+                if reports[-1].measured["interrupted"]:
+                    break
+    except KeyboardInterrupt:  # between two runs
+        reports.append(_not_begun(requests[len(reports)]))
+    if reports[-1].measured["interrupted"]:
+        reports += [_not_begun(one) for one in requests[len(reports) :]]
+    return merged(reports)
+
+
+def _not_begun(request: Request) -> Report:
+    """What an interruption leaves of a request."""
+    from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+
+    finding = Finding("run", {}, Verdict.INCONCLUSIVE, note="not begun: interrupted")
+    result = Result(request.model.name, {}, "run", [finding])
+    return Report("run", {}, [result], {"seconds": 0.0, "interrupted": True})
+
+
+def finish(report: Report, output: _options.Output, earlier: Report | None) -> int:
+    """Deliver the report; the exit code, which with a baseline counts what got worse."""
+    import gc
+
+    interrupted = report.measured["interrupted"]
+    if interrupted:
+        gc.disable()  # with a compiler in memory a collection takes long, and the end is near
+    code = _options.deliver(report, output)
+    if interrupted:
+        return INTERRUPTED
+    return code if earlier is None else _difference(report, earlier, output.inconclusive)
+
+
+def _difference(report: Report, earlier: Report, policy: Policy | None) -> int:
+    """Tell on stderr what changed; the exit code counts only what got worse."""
+    from montecarlo_brdf.judge.finding import EXIT_CODES, Verdict
+    from montecarlo_brdf.report import baseline
+
+    found = baseline.changes(report, earlier)
+    for change in found:
+        click.echo(str(change), err=True)
+    worse = sum(change.kind in baseline.KINDS[:2] for change in found)
+    click.echo(f"baseline: {worse} worse, {len(found) - worse} other changes", err=True)
+    code = baseline.exit_code(found)
+    return policy.code if policy and code == EXIT_CODES[Verdict.INCONCLUSIVE] else code

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number
+from montecarlo_brdf.cli._values import Number, Read, listed
+from montecarlo_brdf.errors import UserError
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.model import Model
 
 EPILOG = """\b
 Examples:
@@ -20,57 +25,82 @@ Examples:
 
 
 @click.command("stress", epilog=EPILOG, short_help="Which digits survive in which precision.")
-@click.option(
-    "--model",
-    "spec",
-    metavar="MODEL",
-    shell_complete=_options.model_names,
-    help="A built-in model, a specimen, my_brdf.py, or my_brdf.py:name. [--model ggx]",
+@_options.model(
+    help="A built-in model, a specimen, my_brdf.py, or my_brdf.py:name. [--model ggx]"
 )
-@click.option(
-    "--compare",
-    nargs=2,
-    metavar="A B",
-    help="Two models side by side. [--compare textbook_ggx ggx]",
+@click.option("--compare", nargs=2, metavar="A B",
+              help="Two models side by side. [--compare textbook_ggx ggx]")  # fmt: skip
+@_options.parameters(
+    help="A parameter or choice; without, the whole domain is searched. [-p alpha=0.01]"
 )
-@click.option(
-    "-p",
-    "--param",
-    "assignments",
-    multiple=True,
-    metavar="NAME=VALUE",
-    help="A parameter or choice; without, the whole domain is searched. [-p alpha=0.01]",
-)
-@click.option(
-    "--precision",
-    "precisions",
-    metavar="NAMES",
-    help="Judge only these: bfloat16, float16, float32, float64, longdouble. "
-    "[--precision float16,float32]",
-)
-@click.option(
-    "--max-error",
-    type=Number(),
-    default=None,
-    help="Relative error allowed [default: 1e-5 in single, 1e-13 in double]. [--max-error 1e-4]",
-)
+@click.option("--precision", "precisions", type=Read(listed), metavar="NAMES",
+              help="Judge only these: bfloat16, float16, float32, float64, longdouble. "
+              "[--precision float16,float32]")  # fmt: skip
+@click.option("--max-error", type=Number(), default=None,
+              help="Relative error allowed [default: 1e-5 in single, 1e-13 in double]. "
+              "[--max-error 1e-4]")  # fmt: skip
 @click.option("--quick", is_flag=True, help="A few seconds: fewer points.")
-@click.option(
-    "--at", metavar="X,Y,Z,X,Y,Z", help="Only evaluate f at this wo, wi, in every precision."
-)
-@click.option(
-    "--plot",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Heat maps of the error over angle and roughness. [--plot digits.png]",
-)
+@click.option("--at", metavar="X,Y,Z,X,Y,Z",
+              help="Only evaluate f at this wo, wi, in every precision.")  # fmt: skip
+@_options.plot(help="Heat maps of the error over angle and roughness. [--plot digits.png]")
 @_options.output_options
-def command(**options: Any) -> int:
+def command(
+    spec: str | None,
+    compare: tuple[str, str] | None,
+    assignments: tuple[str, ...],
+    precisions: list[str] | None,
+    max_error: float | None,
+    quick: bool,
+    at: str | None,
+    output: _options.Output,
+) -> int:
     """Run the model's own source in half, single, double and long double precision, and compare.
 
     The error of f is what the model's arithmetic adds to the rounding of its inputs, relative to f
     and beyond one rounding of the largest f seen from the same direction.
     """
-    from montecarlo_brdf.cli._stressing import run_stress
+    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._values import parameter_sets
+    from montecarlo_brdf.stability.specimens import load
+    from montecarlo_brdf.verify.stress import stress
 
-    return run_stress(options)
+    output.check()
+    if bool(spec) == bool(compare):
+        raise UserError("stress takes either --model MODEL or --compare A B")
+    models = [load(one) for one in compare or (spec,) if one]
+    sets = None
+    if assignments:
+        given = [parameter_sets(model, assignments) for model in models]
+        models = [model.of(many[0]) for model, many in zip(models, given, strict=True)]
+        sets = given[0]
+    if at:
+        return show_point(models[0], sets, at)
+    with progress(f"stress {', '.join(m.name for m in models)}") as update:
+        report = stress(
+            models, sets, precisions=precisions, max_error=max_error, quick=quick, progress=update
+        )
+    return _options.deliver(report, output)
+
+
+def show_point(model: Model, sets: Sequence[Any] | None, text: str) -> int:
+    """f at one pair of directions in every precision, and its truth."""
+    import numpy as np
+
+    from montecarlo_brdf.cli._values import numbers
+    from montecarlo_brdf.stability.arithmetic import exact, ladder
+    from montecarlo_brdf.stability.ladder import Rung, rounded, unit
+
+    components = numbers(text, "at")
+    if len(components) != 6 or min(components[2], components[5]) <= 0.0:
+        raise UserError("--at takes six numbers, wo and wi, both above the horizon")
+    wo, wi = np.array([components[:3]]), np.array([components[3:]])
+    p = sets[0] if sets else model.parameters()
+    for one in ladder().values():
+        q, value = rounded(p, one), math.nan
+        if q is not None:
+            value = float(Rung(model, one).f(one.array(wo), one.array(wi), q)[0])
+        click.echo(f"{one.name:10} {value!r}")
+    e = exact()
+    truth = Rung(model, e).f(unit(wo, e), unit(wi, e), rounded(p, e))[0]
+    click.echo(f"{'truth':10} {float(truth)!r}  (50 digits, these directions renormalised)")
+    return 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.estimate import work
@@ -10,6 +11,13 @@ if TYPE_CHECKING:
     from montecarlo_brdf.estimate.partial_sums import PartialSums
 
 REPLICATES = 16
+
+
+class Choice(StrEnum):
+    """Who chooses sampler and points."""
+
+    GIVEN = "given"  # whoever asks
+    AUTO = "auto"  # the model and the target
 
 
 class Plan(NamedTuple):
@@ -22,5 +30,5 @@ class Plan(NamedTuple):
     threads: int = 1
     progress: work.Progress | None = None
     target_error: float | None = None  # relative; None: just the samples asked for
-    method: str = "given"  # or "auto": sampler and points are chosen, also with a target
+    method: str = Choice.GIVEN  # AUTO also without a target
     sums: PartialSums | None = None  # where long jobs keep how far they are

@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, NamedTuple
 
+from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.model import Property
 
 #: Tolerances are stated, not discovered (design: the verdict is the product).
 BOUND_TOLERANCE = 1e-5  # absolute, for "at most 1"
@@ -37,6 +39,11 @@ class Reference(NamedTuple):
     kind: str
     source: str
 
+    def told(self) -> dict[str, Any] | None:
+        """What a finding tells of it besides its value; nothing of a bare number."""
+        if not self.kind:
+            return None
+        return {"kind": self.kind, "source": self.source, "error": self.error}
 
 
 class Exact(NamedTuple):
@@ -48,6 +55,8 @@ class Exact(NamedTuple):
     points: int = 1  # how many were looked at
     note: str | None = None  # why nothing could be decided
     hint: str | None = None
+    example: str | None = None  # what was found there, told where it refutes
+    reproduce: str | None = None  # the command that shows it again
 
 
 def worst_of(looks: Iterable[Exact]) -> Exact:
@@ -69,6 +78,22 @@ class Fit(NamedTuple):
     hint: str | None = None
 
 
+class Slope(NamedTuple):
+    """How the logarithm of an error changes with that of the samples; NaN: nothing to fit."""
+
+    value: float
+    stderr: float
+    dof: int
+    samples: int  # of the last error
+    levels: list[dict[str, Any]]  # the errors as a finding shows them
+    note: str
+    finite: bool = True  # whether all errors are numbers
+
+    def half_width(self, level: float) -> float:
+        """Half the width of the slope's interval."""
+        return student.quantile(0.5 * level, self.dof) * self.stderr
+
+
 @dataclass(frozen=True)
 class ExactClaim:
     """A number that a deterministic evaluation, or the worst of a search, keeps within bounds."""
@@ -79,8 +104,8 @@ class ExactClaim:
     expected: Reference
     tolerance: float  # absolute
     evaluate: Callable[[], Exact]
-    property: str = "reference"
-    reproduce: str = ""
+    property: str | None = Property.REFERENCE
+    estimator: str = "exact"
 
 
 @dataclass(frozen=True)
@@ -91,8 +116,19 @@ class FitClaim:
     where: Mapping[str, Any]
     tolerance: float
     measure: Callable[[Plan, float], Fit]  # plan and level
-    property: str = "pdf"
-    reproduce: str = ""
+    property: str | None = Property.PDF
+
+
+@dataclass(frozen=True)
+class SlopeClaim:
+    """An error falls with the number of samples: its slope is at most what is expected."""
+
+    quantity: str
+    where: Mapping[str, Any]
+    expected: Reference
+    tolerance: float  # absolute
+    measure: Callable[[Plan], Slope]
+    property: str | None = None
 
 
 @dataclass(frozen=True)
@@ -101,6 +137,20 @@ class Skip:
 
     quantity: str
     reason: str
+    property: str | None = None
+
+
+@dataclass(frozen=True)
+class Limit:
+    """How far something holds: a number that is told, as nobody promised any."""
+
+    quantity: str
+    where: Mapping[str, Any]
+    value: float  # NaN: it holds nowhere
+    samples: int
+    estimator: str
+    note: str | None = None  # why there is none
+    property: str | None = None
 
 
 @dataclass(frozen=True)
@@ -117,12 +167,11 @@ class MeanClaim:
     expected: Reference | None
     tolerance: float  # absolute
     measure: Callable[[Plan], list[Measurement]]
-    property: str = "reference"
-    reproduce: str = ""
+    property: str | None = Property.REFERENCE
     unit: Mapping[str, float] = field(default_factory=dict)  # what the hint compares the value with
     cause: str | None = None  # the hint where no number tells
     #: asked, for a seed, where samples leave the claim open
     fallback: Callable[[int], Measurement] | None = None
 
 
-Claim = MeanClaim | ExactClaim | FitClaim | Skip
+Claim = MeanClaim | ExactClaim | FitClaim | SlopeClaim | Limit | Skip

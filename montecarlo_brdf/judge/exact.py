@@ -3,42 +3,59 @@ from __future__ import annotations
 
 import math
 
-from montecarlo_brdf.judge.claim import Exact, ExactClaim
-from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.claim import Exact, ExactClaim, Limit
+from montecarlo_brdf.judge.finding import Bound, Finding, Verdict
 from montecarlo_brdf.judge.looks import beyond
 
 
 def exact_finding(claim: ExactClaim, known: str | None) -> Finding:
-    """A deterministic value against its bound: no error rate, an error bound instead."""
-    found = claim.evaluate()
-    verdict = _exact_verdict(claim, found)
-    expected = claim.expected
+    """A deterministic value against its bound."""
+    found, expected = claim.evaluate(), claim.expected
+    verdict, note = _exact_verdict(claim, found), found.note
+    hint = found.hint if verdict == Verdict.FAIL else None
+    if verdict == Verdict.FAIL and (found.example or known):
+        verdict = Verdict.KNOWN if known else verdict
+        note = "; ".join(filter(None, (found.example, known)))
     return Finding(
         claim.quantity,
         {**claim.where, **found.where},
-        "known" if verdict == "fail" and known else verdict,
+        verdict,
         claim.bound,
         found.value,
         found.error,
         expected=expected.value,
         tolerance=claim.tolerance,
         samples=found.points,
-        estimator="exact",
-        reference={"kind": expected.kind, "source": expected.source, "error": expected.error},
-        note=known if verdict == "fail" and known else found.note,
-        hint=found.hint if verdict == "fail" else None,
-        reproduce=(claim.reproduce or None) if verdict != "pass" else None,
+        estimator=claim.estimator,
+        reference=expected.told(),
+        note=note,
+        hint=hint,
+        reproduce=found.reproduce if verdict != Verdict.PASS else None,
     )
 
 
-def _exact_verdict(claim: ExactClaim, found: Exact) -> str:
+def _exact_verdict(claim: ExactClaim, found: Exact) -> Verdict:
     if found.note and not found.points:
-        return "inconclusive"
+        return Verdict.INCONCLUSIVE
     if not math.isfinite(found.value):
-        return "fail"
+        return Verdict.FAIL
     over = found.value - claim.expected.value
-    over = {"at most": over, "at least": -over, "equal": abs(over)}[claim.bound]
+    over = {Bound.AT_MOST: over, Bound.AT_LEAST: -over, Bound.EQUAL: abs(over)}[Bound(claim.bound)]
     slack = found.error + claim.expected.error
     if over + slack <= claim.tolerance:
-        return "pass"
+        return Verdict.PASS
     return beyond(over, slack, claim.tolerance)
+
+
+def limit_finding(claim: Limit) -> Finding:
+    """A number that is told: nothing is promised, so nothing is refuted."""
+    return Finding(
+        claim.quantity,
+        dict(claim.where),
+        Verdict.PASS if claim.note is None else Verdict.KNOWN,
+        value=claim.value,
+        stderr=0.0,
+        samples=claim.samples,
+        estimator=claim.estimator,
+        note=claim.note,
+    )

@@ -46,14 +46,26 @@ EXIT_CODES = {
 }
 
 
+class Policy(StrEnum):
+    """What an inconclusive report counts as, if somebody says so."""
+
+    PASS = Verdict.PASS.value
+    FAIL = Verdict.FAIL.value
+
+    @property
+    def code(self) -> int:
+        """The exit code."""
+        return EXIT_CODES[Verdict(self.value)]
+
+
 @dataclass(frozen=True)
 class Finding:
     """The outcome of one claim."""
 
     quantity: str
     where: dict[str, Any]
-    verdict: str
-    bound: str = "equal"
+    verdict: Verdict
+    bound: str = Bound.EQUAL
     value: float = math.nan
     stderr: float = math.nan
     expected: float | None = None
@@ -88,11 +100,11 @@ class Result:
     params: dict[str, Any]
     check: str
     findings: list[Finding]
-    curves: Sequence[Sequence[tuple[float, ...]]] = ()  # per channel or precision, for plots
+    curves: Sequence[Sequence[tuple[float, ...]]] = field(default=())  # per channel, for plots
     source: dict[str, Any] = field(default_factory=dict)  # file and line of the user's f
 
     @property
-    def verdict(self) -> str:
+    def verdict(self) -> Verdict:
         """The worst verdict of its findings."""
         return worst(f.verdict for f in self.findings)
 
@@ -107,15 +119,15 @@ class Report:
     measured: dict[str, Any] = field(default_factory=dict)
 
     @property
-    def verdict(self) -> str:
-        """ "pass", "fail" or "inconclusive" ("error" if a model could not be run)."""
+    def verdict(self) -> Verdict:
+        """PASS, FAIL or INCONCLUSIVE (ERROR if a model could not be run)."""
         verdict = worst(r.verdict for r in self.results)
-        return "pass" if verdict in ("known", "skipped") else verdict
+        return Verdict.PASS if verdict in (Verdict.KNOWN, Verdict.SKIPPED) else verdict
 
     @property
     def exit_code(self) -> int:
         """0 all claims held, 1 one was refuted, 3 inconclusive, 4 the model could not be run."""
-        return EXIT_CODES[Verdict(self.verdict)]
+        return EXIT_CODES[self.verdict]
 
     @property
     def level(self) -> float:
@@ -140,9 +152,9 @@ class Report:
         return json.dumps(_plain(self.to_dict()), indent=1, allow_nan=False) + "\n"
 
 
-def worst(verdicts: Iterable[str]) -> str:
-    """The worst of some verdicts; "skipped" if there is none."""
-    return min(verdicts, key=SEVERITY.index, default="skipped")
+def worst(verdicts: Iterable[Verdict]) -> Verdict:
+    """The worst of some verdicts; SKIPPED if there is none."""
+    return min(verdicts, key=SEVERITY.index, default=Verdict.SKIPPED)
 
 
 def versions() -> dict[str, str]:

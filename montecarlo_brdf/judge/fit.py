@@ -5,13 +5,13 @@ import math
 
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import FitClaim
-from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.finding import Bound, Finding, Verdict
 from montecarlo_brdf.judge.looks import FRESH, looks
 
 
 def fit_finding(claim: FitClaim, plan: Plan, known: str | None, level: float) -> Finding:
     """Pass if the distance is surely small, fail if rejected twice on independent streams."""
-    verdict, fit = "inconclusive", None
+    verdict, fit = Verdict.INCONCLUSIVE, None
     for look, samples in enumerate(looks(plan.samples), start=1):
         spent = level * 2.0**-look
         sized = plan._replace(samples=samples)
@@ -21,17 +21,17 @@ def fit_finding(claim: FitClaim, plan: Plan, known: str | None, level: float) ->
         if fit.p_value < spent and fit.distance > claim.tolerance:
             again = claim.measure(sized._replace(seed=plan.seed + FRESH), spent)
             if again.p_value < spent:
-                verdict = "known" if known else "fail"
+                verdict = Verdict.KNOWN if known else Verdict.FAIL
                 break
         if fit.upper <= claim.tolerance:
-            verdict = "pass"
+            verdict = Verdict.PASS
             break
     assert fit is not None
     return Finding(
         claim.quantity,
         dict(claim.where),
         verdict,
-        "at most",
+        Bound.AT_MOST,
         fit.distance,
         (fit.upper - fit.distance) if math.isfinite(fit.upper) else math.nan,
         expected=0.0,
@@ -40,7 +40,6 @@ def fit_finding(claim: FitClaim, plan: Plan, known: str | None, level: float) ->
         level=level,
         samples=fit.samples,
         estimator="counts",
-        note=known if verdict == "known" else fit.note,
-        hint=fit.hint if verdict in ("fail", "known") else None,
-        reproduce=(claim.reproduce or None) if verdict != "pass" else None,
+        note=known if verdict == Verdict.KNOWN else fit.note,
+        hint=fit.hint if verdict in (Verdict.FAIL, Verdict.KNOWN) else None,
     )

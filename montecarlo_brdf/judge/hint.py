@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 
 from montecarlo_brdf.judge.claim import MeanClaim
+from montecarlo_brdf.judge.finding import Bound
 
 #: ratio of what was found to what was expected -> what usually causes it
 FACTORS = {
@@ -32,9 +33,9 @@ def hint(claim: MeanClaim, value: float, only_own: bool = False) -> str | None:
     if not math.isfinite(value):
         return NOT_FINITE_WEIGHT if only_own else NOT_FINITE
     units, close = dict(claim.unit), CLOSE
-    if claim.bound == "at most":  # what should reflect 1; a search for the worst is coarse
+    if claim.bound == Bound.AT_MOST:  # what should reflect 1; a search for the worst is coarse
         units, close = {"1": 1.0, **units}, 5.0 * CLOSE
-    if claim.expected is not None and claim.bound == "equal" and claim.expected.value:
+    if claim.expected is not None and claim.bound == Bound.EQUAL and claim.expected.value:
         units = {"expected": claim.expected.value, **units}
     for name, unit in units.items():
         cause = factor_named(value / unit, close)

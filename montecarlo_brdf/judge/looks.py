@@ -1,6 +1,8 @@
 """Looks at growing sample sizes, and what lies beyond a tolerance."""
 from __future__ import annotations
 
+from montecarlo_brdf.judge.finding import Verdict
+
 FIRST_LOOK = 1 << 14
 GROWTH = 4
 #: added to the seed for the fresh stream that must confirm a refutation
@@ -17,6 +19,6 @@ def looks(most: int) -> list[int]:
     return [*sizes, most]
 
 
-def beyond(deviation: float, slack: float, tolerance: float) -> str:
+def beyond(deviation: float, slack: float, tolerance: float) -> Verdict:
     """"fail" if a deviation exceeds the tolerance surely, else "inconclusive"."""
-    return "fail" if deviation - slack > tolerance else "inconclusive"
+    return Verdict.FAIL if deviation - slack > tolerance else Verdict.INCONCLUSIVE

@@ -11,8 +11,8 @@ import math
 from dataclasses import replace
 
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.judge.claim import MeanClaim
-from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.claim import Kind, MeanClaim
+from montecarlo_brdf.judge.finding import Finding, Verdict
 from montecarlo_brdf.judge.hint import hint
 from montecarlo_brdf.judge.looks import FRESH, GROWTH, looks
 from montecarlo_brdf.judge.opinions import (
@@ -33,7 +33,7 @@ CONFIRMING_REPLICATES = 64
 CONFIRMING_POINTS = "sobol"
 #: estimators that use nothing of a model but its f
 OF_F_ALONE = ("uniform", "cosine")
-OF_SAME_F = "quadrature"  # how the kind of such an expected value begins
+OF_SAME_F = (Kind.QUADRATURE, Kind.SAME_F)  # kinds of expected values that say the same f
 
 
 def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
@@ -43,17 +43,17 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
     other: if they agree, it has missed something.
     """
     opinions, looked = _looked_at(claim, plan, level)
-    if overall(opinions) == "fail" and _of_same_f(claim):
+    if overall(opinions) == Verdict.FAIL and _of_same_f(claim):
         alone = replace(claim, expected=None)
         found, further = _looked_at(alone, plan, level)
-        if _missed(opinions) or overall(found) == "pass":
+        if _missed(opinions) or overall(found) == Verdict.PASS:
             claim, opinions, looked = alone, found, further
     return _finding(claim, opinions, level, (looked, plan.samples), known)
 
 
 def _of_same_f(claim: MeanClaim) -> bool:
     """Whether the expected value is a quadrature of the f that is sampled."""
-    return claim.expected is not None and claim.expected.kind.startswith(OF_SAME_F)
+    return claim.expected is not None and claim.expected.kind in OF_SAME_F
 
 
 def _resolving(claim: MeanClaim, opinions: list[Opinion]) -> Opinion:
@@ -66,7 +66,7 @@ def _resolving(claim: MeanClaim, opinions: list[Opinion]) -> Opinion:
 
 def _missed(opinions: list[Opinion]) -> bool:
     """Whether samples of f refute a quadrature of the same f: it has missed something."""
-    refuting = [o.measurement for o in opinions if o.verdict == "fail"]
+    refuting = [o.measurement for o in opinions if o.verdict == Verdict.FAIL]
     return any(m.estimator in OF_F_ALONE and math.isfinite(m.estimate.mean) for m in refuting)
 
 
@@ -78,9 +78,9 @@ def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[list[Opinion
         sized = plan._replace(samples=samples)
         opinions = judged(claim, claim.measure(sized), spent)
         opinions = confirmed(claim, sized, spent, opinions)
-        if overall(opinions) == "fail" or settled(claim, opinions, plan.samples):
+        if overall(opinions) == Verdict.FAIL or settled(claim, opinions, plan.samples):
             break
-    if claim.fallback and overall(opinions) == "inconclusive":
+    if claim.fallback and overall(opinions) == Verdict.INCONCLUSIVE:
         last = _asked_last if claim.expected else _compared_last
         opinions = last(claim, opinions, plan.seed, spent)
     return opinions, sized.samples
@@ -89,7 +89,7 @@ def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[list[Opinion
 def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: list[Opinion]) -> list[Opinion]:
     """The opinions, a refutation being inconclusive unless the same estimator refutes again, by
     fresh and more randomisations."""
-    if overall(opinions) != "fail":
+    if overall(opinions) != Verdict.FAIL:
         return opinions
     fresh = plan._replace(
         points=CONFIRMING_POINTS,
@@ -98,11 +98,11 @@ def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: list[Opinion
         seed=plan.seed + FRESH,
     )
     again = judged(claim, claim.measure(fresh), level)
-    sure = {o.measurement.estimator for o in again if o.verdict == "fail"}
+    sure = {o.measurement.estimator for o in again if o.verdict == Verdict.FAIL}
     return changed(
         opinions,
-        lambda o: o.verdict == "fail" and o.measurement.estimator not in sure,
-        "inconclusive",
+        lambda o: o.verdict == Verdict.FAIL and o.measurement.estimator not in sure,
+        Verdict.INCONCLUSIVE,
     )
 
 
@@ -112,9 +112,9 @@ def _asked_last(
     """With what is asked where samples left the claim open; a refutation counts if repeated."""
     assert claim.fallback
     found = judged(claim, [claim.fallback(seed)], level)
-    if overall(found) == "fail":
+    if overall(found) == Verdict.FAIL:
         again = judged(claim, [claim.fallback(seed + FRESH)], level)
-        found = found if overall(again) == "fail" else again
+        found = found if overall(again) == Verdict.FAIL else again
     return [*opinions, *found]
 
 
@@ -130,7 +130,7 @@ def _compared_last(
         return [*opinions, *judged(claim, [last], level)]
     best = min(fit, key=lambda o: o.half_width)
     pair = judged(claim, [best.measurement, last], level)
-    if overall(pair) != "pass":
+    if overall(pair) != Verdict.PASS:
         return opinions
     return [*(o for o in opinions if o is not best), *pair]
 
@@ -145,10 +145,10 @@ def _finding(
     shown, verdict = telling(opinions), overall(opinions)
     fit = sum(not o.measurement.unfit for o in opinions)
     last = level * 2.0 ** -len(looks(looked[1])) / max(1, fit)
-    if verdict == "fail" and known:
-        verdict = "known"
+    if verdict == Verdict.FAIL and known:
+        verdict = Verdict.KNOWN
     e, expected = shown.measurement.estimate, claim.expected
-    reference = expected._asdict() if expected else {}
+    note = known if verdict == Verdict.KNOWN else _note(claim, verdict, opinions) or e.method
     return Finding(
         quantity=claim.quantity,
         where=dict(claim.where),
@@ -156,17 +156,16 @@ def _finding(
         bound=claim.bound,
         value=e.mean,
         stderr=e.stderr,
-        expected=reference.pop("value", None),
+        expected=expected.value if expected else None,
         tolerance=claim.tolerance,
         resolves=resolves(claim, _resolving(claim, opinions), last, looked[0] / looked[1]),
         level=level,
         samples=e.samples,
         estimator=shown.measurement.estimator,
-        reference={k: reference[k] for k in ("kind", "source", "error")} if expected else None,
+        reference=expected.told() if expected else None,
         estimators=[_row(claim, o) for o in opinions],
-        note=known if verdict == "known" else _note(claim, verdict, opinions) or e.method or None,
-        hint=_hint(claim, e.mean, opinions) if verdict in ("fail", "known") else None,
-        reproduce=claim.reproduce or None,
+        note=note or None,
+        hint=_hint(claim, e.mean, opinions) if verdict in (Verdict.FAIL, Verdict.KNOWN) else None,
     )
 
 
@@ -188,7 +187,7 @@ def _row(claim: MeanClaim, opinion: Opinion) -> dict[str, object]:
     }
     if m.unfit:
         row["not_used"] = m.unfit
-    elif opinion.verdict == "inconclusive":
+    elif opinion.verdict == Verdict.INCONCLUSIVE:
         row["not_used"] = (
             f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples: "
             f"needs about {_more(claim, opinion):.0e}"
@@ -201,9 +200,9 @@ def _more(claim: MeanClaim, opinion: Opinion) -> float:
     return max(needed(claim, opinion), GROWTH * opinion.measurement.estimate.samples)
 
 
-def _note(claim: MeanClaim, verdict: str, opinions: list[Opinion]) -> str | None:
+def _note(claim: MeanClaim, verdict: Verdict, opinions: list[Opinion]) -> str | None:
     """What an inconclusive finding needs."""
-    if verdict != "inconclusive":
+    if verdict != Verdict.INCONCLUSIVE:
         return None
     reasons = [o.measurement.unfit for o in opinions if o.measurement.unfit]
     fit = [o for o in opinions if not o.measurement.unfit]

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from montecarlo_brdf import student
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import MeanClaim, Reference
+from montecarlo_brdf.judge.finding import Bound, Verdict
 from montecarlo_brdf.judge.looks import beyond
 from montecarlo_brdf.statistics import FLOOR
 
@@ -20,6 +21,7 @@ LUCK = 5e-3
 FASTEST = 1.0
 #: standard errors that the truth is from an estimate at most, where that only saves work
 SURE = 4.0
+UNFIT = "unfit"  # instead of a verdict, of an estimator that is not to be believed
 
 
 class Opinion(NamedTuple):
@@ -27,7 +29,7 @@ class Opinion(NamedTuple):
 
     measurement: Measurement
     half_width: float
-    verdict: str
+    verdict: str  # a Verdict or UNFIT
 
 
 def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> list[Opinion]:
@@ -38,47 +40,50 @@ def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> l
     opinions = []
     for m in measurements:
         half = m.half_width(each)
-        verdict = "unfit" if m.unfit else _verdict(claim, m, best, half, each)
+        verdict = UNFIT if m.unfit else _verdict(claim, m, best, half, each)
         opinions.append(Opinion(m, half, verdict))
-    if claim.expected is None and sum(o.verdict == "pass" for o in opinions) < 2:
+    if claim.expected is None and sum(o.verdict == Verdict.PASS for o in opinions) < 2:
         # one estimator alone agrees with itself
-        opinions = changed(opinions, lambda o: o.verdict == "pass", "inconclusive")
-    if claim.bound == "at most" and best is not None:
+        opinions = changed(opinions, lambda o: o.verdict == Verdict.PASS, Verdict.INCONCLUSIVE)
+    if claim.bound == Bound.AT_MOST and best is not None:
         # a bound is decided by the most precise estimator; the others only speak up to refute
-        quiet = ("unfit", "fail")
+        quiet = (UNFIT, Verdict.FAIL)
         opinions = changed(
-            opinions, lambda o: o.measurement is not best and o.verdict not in quiet, "pass"
+            opinions, lambda o: o.measurement is not best and o.verdict not in quiet, Verdict.PASS
         )
     return opinions
 
 
-def changed(opinions: list[Opinion], which: Callable[[Opinion], bool], to: str) -> list[Opinion]:
+def changed(
+    opinions: list[Opinion], which: Callable[[Opinion], bool], to: Verdict
+) -> list[Opinion]:
     """The opinions, with another verdict for some."""
     return [o._replace(verdict=to) if which(o) else o for o in opinions]
 
 
 def _verdict(
     claim: MeanClaim, m: Measurement, best: Measurement | None, half: float, level: float
-) -> str:
+) -> Verdict:
     value, expected = m.estimate.mean, claim.expected
     if not math.isfinite(value):
-        return "fail"
+        return Verdict.FAIL
     if expected is None:
         if best is None or m is best:
-            return "pass"
+            return Verdict.PASS
         expected = Reference(best.estimate.mean, best.half_width(level), "", "")
     slack = half + expected.error
     over = value - expected.value
-    over = over if claim.bound == "at most" else abs(over)
-    return "pass" if over + slack <= claim.tolerance else beyond(over, slack, claim.tolerance)
+    over = over if claim.bound == Bound.AT_MOST else abs(over)
+    held = over + slack <= claim.tolerance
+    return Verdict.PASS if held else beyond(over, slack, claim.tolerance)
 
 
-def overall(opinions: list[Opinion]) -> str:
+def overall(opinions: list[Opinion]) -> Verdict:
     """Refuted by any, else held by those that resolve the tolerance, else inconclusive."""
     verdicts = {o.verdict for o in opinions}
-    if "fail" in verdicts:
-        return "fail"
-    return "pass" if "pass" in verdicts else "inconclusive"
+    if Verdict.FAIL in verdicts:
+        return Verdict.FAIL
+    return Verdict.PASS if Verdict.PASS in verdicts else Verdict.INCONCLUSIVE
 
 
 def needed(claim: MeanClaim, opinion: Opinion, rate: float = 0.5) -> float:
@@ -91,19 +96,19 @@ def needed(claim: MeanClaim, opinion: Opinion, rate: float = 0.5) -> float:
 def settled(claim: MeanClaim, opinions: list[Opinion], most: int) -> bool:
     """Whether sampling on, up to `most`, changes nothing: the claim is held, and no other
     estimator will resolve the tolerance, nor refute what it does not look like refuting."""
-    return overall(opinions) == "pass" and all(
-        o.verdict == "pass" or _hopeless(claim, o, most) for o in opinions
+    return overall(opinions) == Verdict.PASS and all(
+        o.verdict == Verdict.PASS or _hopeless(claim, o, most) for o in opinions
     )
 
 
 def _hopeless(claim: MeanClaim, o: Opinion, most: int) -> bool:
     e, expected = o.measurement.estimate, claim.expected
-    if o.verdict == "unfit":
+    if o.verdict == UNFIT:
         return getattr(o.measurement.unfit, "needs", 0.0) > most
     if expected is None or needed(claim, o, FASTEST) <= most:
         return False
     over = e.mean - expected.value
-    over = over if claim.bound == "at most" else abs(over)
+    over = over if claim.bound == Bound.AT_MOST else abs(over)
     in_the_end = o.half_width * math.sqrt(e.samples / most)
     return over + SURE * e.stderr <= claim.tolerance + expected.error + in_the_end
 
@@ -113,7 +118,7 @@ def telling(opinions: list[Opinion]) -> Opinion:
 
     Samples come before a quadrature: its value is shown where they leave the claim open.
     """
-    order = {"fail": 0, "pass": 1, "inconclusive": 2, "unfit": 3}
+    order = {Verdict.FAIL: 0, Verdict.PASS: 1, Verdict.INCONCLUSIVE: 2, UNFIT: 3}
 
     def rank(o: Opinion) -> tuple[int, bool, float]:
         return order[o.verdict], o.measurement.bound is not None, o.half_width

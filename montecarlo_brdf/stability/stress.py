@@ -25,8 +25,8 @@ KINDS = ("nan", "inf", "negative", "flushed")
 
 
 @dataclass
-class Outcome:
-    """What one precision does to a model."""
+class Loss:
+    """What one precision loses of a model."""
 
     precision: str
     tolerance: float
@@ -46,17 +46,17 @@ class Outcome:
     draws: sampling.Draws | None = None
 
 
-def outcome(
+def loss(
     model: Model,
     sets: Sequence[Any],
     arithmetic: Arithmetic,
     tolerance: float | None = None,
     quick: bool = False,
     progress: Callable[[float], None] | None = None,
-) -> Outcome:
+) -> Loss:
     """Stress one model in one precision over parameter sets; deterministic."""
     narrow, wide = Rung(model, arithmetic), Rung(model, wider(arithmetic))
-    result = Outcome(arithmetic.name, tolerance or arithmetic.tolerance, arithmetic.eps)
+    result = Loss(arithmetic.name, tolerance or arithmetic.tolerance, arithmetic.eps)
     candidates: list[tuple[climb.Found, Any]] = []
     for i, p in enumerate(sets):
         q = rounded(p, arithmetic)
@@ -73,7 +73,7 @@ def outcome(
 
 
 def _one_set(
-    result: Outcome, narrow: Rung, wide: Rung, p: Any, q: Any, quick: bool
+    result: Loss, narrow: Rung, wide: Rung, p: Any, q: Any, quick: bool
 ) -> list[tuple[climb.Found, Any]]:
     """Evaluate the designed set of one parameter set; its worst points, to climb from."""
     points = designed.directions(narrow.arithmetic, designed.width_of(narrow.model, p), quick)
@@ -95,7 +95,7 @@ def _one_set(
     return [(climb.at(points, q, found, worst[0]), peers)]
 
 
-def _count(result: Outcome, points: Points, q: Any, found: Errors) -> None:
+def _count(result: Loss, points: Points, q: Any, found: Errors) -> None:
     for kind, here in found.kinds.items():
         result.counts[kind] += int((here & ~found.low).sum())
         result.counts_low[kind] += int((here & found.low).sum())
@@ -103,7 +103,7 @@ def _count(result: Outcome, points: Points, q: Any, found: Errors) -> None:
             result.first[kind] = climb.at(points, q, found, int(np.argmax(here & ~found.low)))
 
 
-def _keep(result: Outcome, *found: climb.Found) -> None:
+def _keep(result: Loss, *found: climb.Found) -> None:
     for one in found:
         if result.worst is None or one.own > result.worst.own:
             result.worst = one
@@ -120,7 +120,7 @@ def _by_angle(points: Points, found: Errors, value: float) -> list[tuple[float, 
     return [(float(t), value, float(e)) for t, e in zip(theta, worst, strict=False)]
 
 
-def _against_exact(result: Outcome, narrow: Rung, points: Points, q: Any, found: Errors) -> None:
+def _against_exact(result: Loss, narrow: Rung, points: Points, q: Any, found: Errors) -> None:
     """The worst points and some others again, with 50 digits as truth."""
     order = np.argsort(found.own)[-EXACT_WORST:]
     chosen = np.unique(np.r_[order, np.arange(0, len(found.own), EXACT_EVERY)])
@@ -140,7 +140,7 @@ def _against_exact(result: Outcome, narrow: Rung, points: Points, q: Any, found:
 
 
 def _climb_from(
-    result: Outcome,
+    result: Loss,
     narrow: Rung,
     wide: Rung,
     candidates: list[tuple[climb.Found, Any]],
@@ -156,7 +156,7 @@ def _climb_from(
             _keep(result, climb.climb(narrow, wide, found, peers, rounds, rng))
 
 
-def _safe(result: Outcome, model: Model) -> tuple[str, float] | None:
+def _safe(result: Loss, model: Model) -> tuple[str, float] | None:
     """The sharpest value of the sharpness parameter up to which all smoother ones are tolerable."""
     name = designed.sharpness(model)
     worst: dict[float, float] = {}

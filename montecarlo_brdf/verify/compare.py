@@ -1,6 +1,7 @@
 """Two models side by side: their values, their albedo A and their reverse albedo R."""
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -9,22 +10,27 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import equality
 from montecarlo_brdf.checks._truth import quadrature
 from montecarlo_brdf.estimate.arguments import check_theta
-from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, Exact, ExactClaim, Reference
-from montecarlo_brdf.judge.decide import decide
-from montecarlo_brdf.judge.finding import Report, Result
+from montecarlo_brdf.judge.claim import (
+    AGREEMENT_TOLERANCE,
+    Exact,
+    ExactClaim,
+    Kind,
+    Reference,
+)
+from montecarlo_brdf.judge.finding import Bound, Report
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.report.sentences import called
 from montecarlo_brdf.vectors import from_degrees
-from montecarlo_brdf.verify.common import (
+from montecarlo_brdf.verify.furnace import ANGLES
+from montecarlo_brdf.verify.results import (
     Progress,
-    check_tolerance,
+    Question,
+    answered,
+    probed,
     reported,
-    shared_progress,
     shown_parameters,
 )
-from montecarlo_brdf.verify.furnace import ANGLES
-from montecarlo_brdf.verify.subject import probed, source
+from montecarlo_brdf.verify.settings import Settings
 
 
 def compare(
@@ -38,58 +44,50 @@ def compare(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Report:
-    """Whether two models agree: f within 1e-6 of its value over thousands of pairs of directions,
-    A(wo) and R(wi), by quadrature with error bounds, within 1e-4 (or all within `tolerance`).
+    """Whether two models agree: f over thousands of pairs of directions, A(wo) and R(wi) by
+    quadrature with error bounds.
 
-    cases: pairs of parameter sets, one of each model; None for the defaults of both.
+    model, other: from `load`. cases: pairs of parameter sets, one of each model; None for the
+    defaults of both. theta_o_deg, phi_o_deg: polar angles in [0, 90) and azimuth, in degrees, of
+    the direction that is given. tolerance: relative, in [0, 1); None for 1e-6 of f and 1e-4 of A
+    and R. seed: of the random pairs, 0 to 2^64 - 1. progress: is called with the fraction done.
+
+    Returns a Report with one Result per pair. Raises UserError for a bad value, ModelError if a
+    model does not run, TooSlow if it does not return.
     """
     angles = [check_theta(a) for a in theta_o_deg]
-    check_tolerance(tolerance)
+    settings = Settings(seed=seed, tolerance=tolerance)
     started = time.perf_counter()
-    results = []
-    cases = cases or [(model.parameters(), other.parameters())]
-    for k, (p, q) in enumerate(cases):
-        variant, other_variant = model.of(p), other.of(q)
-        probed(variant, p)
-        probed(other_variant, q)
-        case = Case(variant, p, angles, phi_o_deg, tolerance=tolerance, seed=seed)
-        share = shared_progress(progress, k, len(cases))
-        findings = [decide(c, Plan(seed=seed), None) for c in _told(case, other_variant, q, share)]
-        title = f"against {called(other.name, shown_parameters(other_variant, q))}"
-        shown = shown_parameters(variant, p)
-        results.append(Result(model.name, shown, title, findings, source=source(variant)))
-    settings = {"theta_o_deg": angles, "phi_o_deg": phi_o_deg, "tolerance": tolerance, "seed": seed}
-    return reported("compare", settings, results, started)
+    questions = []
+    for p, q in cases or [(model.parameters(), other.parameters())]:
+        second = other.of(q)
+        probed(second, q)
+        title = f"against {called(other.name, shown_parameters(second, q))}"
+        case = Case(model.of(p), p, angles, phi_o_deg, tolerance=tolerance, seed=seed)
+        questions.append(Question(title, case, functools.partial(claims, other=second, q=q)))
+    results = answered(questions, settings.plan, 1 + 2 * len(angles), progress)
+    told = {"theta_o_deg": angles, "phi_o_deg": phi_o_deg, "tolerance": tolerance, "seed": seed}
+    return reported("compare", told, results, started)
 
 
-def _told(case: Case, other: Model, q: Any, progress: Progress | None) -> Iterator[Claim]:
-    """The claims, with the progress of deciding them."""
-    found = list(_claims(case, other, q))
-    for k, claim in enumerate(found):
-        yield claim
-        if progress:
-            progress((k + 1) / len(found))
-
-
-def _claims(case: Case, other: Model, q: Any) -> Iterator[Claim]:
+def claims(case: Case, other: Model, q: Any) -> Iterator[ExactClaim]:
+    """Equal values, A and R, per channel."""
     pairs = list(zip(case.sets, channels(q), strict=False))
     for k, (one, two) in enumerate(pairs):
         channel = {"channel": k} if len(pairs) > 1 else {}
-        yield _values(case, other, one, two, channel)
+        yield ExactClaim(
+            "|f - other f|/f",
+            channel,
+            Bound.AT_MOST,
+            Reference(0.0, 0.0, Kind.OTHER_MODEL, other.name),
+            case.tolerated(equality.TOLERANCE),
+            functools.partial(
+                equality.difference, case, one, other, two, case.random("compare")
+            ),
+        )
         for theta in case.theta_o_deg:
-            for symbol, reverse in (("A", False), ("R", True)):
-                yield _albedo(case, other, (one, two), theta, symbol, reverse, channel)
-
-
-def _values(case: Case, other: Model, one: Any, two: Any, channel: dict[str, Any]) -> Claim:
-    return ExactClaim(
-        "|f - other f|/f",
-        channel,
-        "at most",
-        Reference(0.0, 0.0, "other model", other.name),
-        case.tolerated(equality.TOLERANCE),
-        lambda: equality.difference(case, one, other, two, case.random("compare")),
-    )
+            for reverse in (False, True):
+                yield _albedo(case, other, (one, two), theta, reverse, channel)
 
 
 def _albedo(
@@ -97,17 +95,17 @@ def _albedo(
     other: Model,
     pair: tuple[Any, Any],
     theta: float,
-    symbol: str,
     reverse: bool,
-    channel: dict[str, Any],
-) -> Claim:
+    channel: dict[str, int],
+) -> ExactClaim:
     fixed = from_degrees(theta, case.phi_o_deg)
-    expected = Reference(*quadrature(other, pair[1], fixed, reverse), "other model", other.name)
+    value, error = quadrature(other, pair[1], fixed, reverse)
+    place = {f"theta_{'i' if reverse else 'o'}_deg": theta, **channel}
     return ExactClaim(
-        symbol,
-        case.where(**{f"theta_{'i' if reverse else 'o'}_deg": theta}, **channel),
-        "equal",
-        expected,
-        case.tolerated(AGREEMENT_TOLERANCE) * abs(expected.value),
+        "R" if reverse else "A",
+        case.where(**place),
+        Bound.EQUAL,
+        Reference(value, error, Kind.OTHER_MODEL, other.name),
+        case.tolerated(AGREEMENT_TOLERANCE) * abs(value),
         lambda: Exact(*quadrature(case.model, pair[0], fixed, reverse)),
     )

@@ -1,34 +1,63 @@
-"""Error against samples of a model: slopes, claims, samples needed."""
+"""Convergence: does the error fall with the number of samples as point set and sampler promise?
+
+A rate is a claim about point set, sampler and smoothness together, never about a point set alone:
+in a chart fitted to the model the integrand is smooth; elsewhere the horizon cuts it or a kink lies
+in it. Errors are those of single randomisations against the reference; the slope of log error
+against log N is fitted where the error is below 10 % and well above the reference's own. It cannot
+see: an error that is the same at every N.
+"""
 from __future__ import annotations
 
+import functools
 import math
 import time
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import _truth
-from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.estimate import probe
+from montecarlo_brdf.checks import _draws, _truth
+from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.estimate.charted import CHARTS
 from montecarlo_brdf.estimate.estimators import directional_albedo
+from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.samplers import charts_of, samplers_of
-from montecarlo_brdf.judge.claim import Reference
-from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.estimate.samplers import charts_of, integrand_name, samplers_of
+from montecarlo_brdf.judge.claim import Kind, Reference, Slope, SlopeClaim
+from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.judge.slope import SHOWN
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import SETS
-from montecarlo_brdf.verify import _convergence as check
-from montecarlo_brdf.verify.common import (
+from montecarlo_brdf.verify.results import (
     Progress,
-    plan_settings,
-    planned,
+    Question,
+    answered,
+    chosen,
+    parameter_sets,
     reported,
-    shared_progress,
-    shown_parameters,
 )
+from montecarlo_brdf.verify.settings import Settings
 
+NAME = "convergence"
 SAMPLES = 1 << 21  # per level, over all randomisations
+
+#: the slope that is claimed at most, by point set: (smooth in the fitted chart, cut or kinked)
+CLAIMS = {
+    "independent": (-0.5, -0.5),
+    "stratified": (-0.9, -0.75),
+    "sobol": (-1.1, -0.75),
+    "lattice": (-1.9, -0.75),
+}
+SLACK = 0.05  # the slope -1/2 is exact: its estimate lies on both sides of it
+RANDOMISATIONS = 32
+#: of independent points, whose slope is its claim: SLACK is six standard errors then, not three
+RANDOMISATIONS_INDEPENDENT = 256
+FIRST, CONSTANT = 4, 1e-13  # log2 of the fewest samples; an error below that is rounding
+USABLE = 0.1  # relative error above which a lobe is not yet resolved
+USABLE_INDEPENDENT = 1.0  # independent points have the same slope at every N
+FEWEST = 4  # levels that a fit needs
+TARGETS = (1e-3, 1e-6, 1e-9)
 
 
 def converge(
@@ -46,115 +75,210 @@ def converge(
 ) -> Report:
     """How fast the error of A falls for each sampler and point set, against the claimed rate.
 
-    sampler, points: "all" or some by name. samples: the most that one number of samples may take
-    over its 32 randomisations. Raises UserError for a bad value, ModelError if the model does not
-    run.
+    model: from `load`. p: a parameter set of `model.parameters`, a list of them, or None for the
+    defaults. theta_o_deg, phi_o_deg: the viewer's polar angle in [0, 90) and azimuth, in degrees.
+    sampler: "all" or some of "uniform", "cosine", "own", "half_vector", "mirror", "panels". points:
+    "all" or some of "independent", "stratified", "sobol", "lattice". samples: the most that one
+    number of samples may take over its 32 randomisations, 1 to 2^40. seed: 0 to 2^64 - 1. threads:
+    1 to 1024, None for all processors; no result depends on it. progress: is called with the
+    fraction done.
+
+    Returns a Report with one Result per parameter set. Raises UserError for a bad value, ModelError
+    if the model does not run, TooSlow if it does not return.
     """
-    sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
     theta = check_theta(theta_o_deg)
-    offered = (*charts_of(model), *samplers_of(model))
-    samplers = _chosen("sampler", sampler, offered)
-    chosen = _chosen("point set", points, tuple(SETS))
-    plan = planned(chosen[0], samples, seed, threads)
+    samplers = chosen("sampler", sampler, (*charts_of(model), *samplers_of(model)))
+    sets = chosen("point set", points, tuple(SETS))
+    settings = Settings(sets[0], samples, seed, threads)
     started = time.perf_counter()
-    results = []
-    for i, one in enumerate(sets):
-        variant = model.of(one)
-        probe.check(variant, one)
-        case = Case(variant, one, [theta], phi_o_deg, seed=seed)
-        share = shared_progress(progress, i, len(sets))
-        findings = _findings(case, theta, samplers, chosen, plan, share)
-        results.append(Result(model.name, shown_parameters(variant, one), check.NAME, findings))
-    settings = {"theta_o_deg": theta, "phi_o_deg": phi_o_deg, "sampler": samplers}
-    settings |= {**plan_settings(plan), "points": ", ".join(chosen)}
-    return reported("converge", settings, results, started)
+    cases = [
+        Case(model.of(one), one, [theta], phi_o_deg, seed=seed) for one in parameter_sets(model, p)
+    ]
+    claimed = functools.partial(claims, samplers=samplers, sets=sets)
+    questions = [Question(NAME, case, claimed) for case in cases]
+    results = answered(questions, settings.plan, len(samplers) * len(sets), progress)
+    results = [replace(r, source={}) for r in results]  # a rate accuses no line of f
+    told = {"theta_o_deg": theta, "phi_o_deg": phi_o_deg, "sampler": samplers}
+    told |= {**settings.told(), "points": ", ".join(sets)}
+    return reported("converge", told, results, started)
 
 
-def _findings(
-    case: Case,
-    theta: float,
-    samplers: Sequence[str],
-    points: Sequence[str],
-    plan: Plan,
-    progress: Progress | None,
-) -> list[Finding]:
-    known = _known(case, theta)
-    total = len(samplers) * len(points)
-    findings = []
-    for curve in check.curves(case, theta, samplers, points, plan, known):
-        findings.append(finding(curve, case.where(theta_o_deg=theta), known))
-        if progress:
-            progress(len(findings) / total)
-    return findings
+def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator[SlopeClaim]:
+    """One claim per sampler and point set."""
+    known = _known(case)
+    floor = max(known.error / abs(known.value), 4.0 * 2.0**-52)
+    (theta,) = case.theta_o_deg
+    for sampler in samplers:
+        smooth = sampler in CHARTS and not (case.model.kinks and sampler != "panels")
+        for points in sets:
+            rate = CLAIMS[_claimed_as(case, sampler, points)][0 if smooth else 1]
+            curve = Curve(case, sampler, points, smooth, known.value, floor)
+            yield SlopeClaim(
+                "slope",
+                {**case.where(theta_o_deg=theta), "sampler": sampler, "points": points},
+                Reference(rate, floor, known.kind, known.source),
+                SLACK,
+                curve.slope,
+            )
 
 
-def _chosen(kind: str, asked: str | Sequence[str], offered: tuple[str, ...]) -> list[str]:
-    if asked == "all":
-        return list(offered)
-    chosen = [asked] if isinstance(asked, str) else list(asked)
-    for name in chosen:
-        if name not in offered:
-            raise UserError(unknown(kind, name, ("all", *offered)))
-    return chosen
-
-
-def _known(case: Case, theta: float) -> Reference:
+def _known(case: Case) -> Reference:
     """The reference; for a model without one, an adaptive estimate with its own error bar."""
+    (theta,) = case.theta_o_deg
     found = _truth.albedo(case.model, case.one, theta, case.phi_o_deg)
     if found is None or not found.value:
         e = directional_albedo(
             case.model, case.one, theta, phi_o_deg=case.phi_o_deg, target_error=1e-10
         )
-        found = Reference(e.mean, 4.0 * e.stderr, "adaptive estimate of the same f", e.method)
+        found = Reference(e.mean, 4.0 * e.stderr, Kind.ADAPTIVE, e.method)
     if not found.value:
         raise UserError(f"model {case.model.name} reflects nothing here: no relative error")
     return found
 
 
-def finding(curve: check.Curve, where: dict[str, Any], known: Reference) -> Finding:
-    """A curve as a finding: the slope is the value, the claim what it must be at most."""
-    fit = curve.fit
-    kind = "smooth in the fitted chart" if curve.smooth else "cut or kinked"
-    return Finding(
-        quantity="slope",
-        where={**where, "sampler": curve.sampler, "points": curve.points},
-        verdict=curve.verdict,
-        bound="at most",
-        value=fit.slope if fit else math.nan,
-        stderr=fit.stderr if fit else math.nan,
-        expected=curve.claim,
-        tolerance=check.SLACK,
-        level=check.LEVEL,
-        samples=curve.levels[-1].samples if curve.levels else 0,
-        reference={"kind": known.kind, "source": known.source, "error": curve.floor},
-        estimators=[_row(v) for v in curve.levels],
-        note=_needs(curve, kind),
-    )
+def _claimed_as(case: Case, sampler: str, points: str) -> str:
+    """Jittered grids spread two numbers at a time: with a lobe chosen by a third they converge like
+    independent points."""
+    grid = points == "stratified" and sampler == "own"
+    return "independent" if grid and _draws.chooses(case, case.theta_o_deg[0]) else points
 
 
-def _needs(curve: check.Curve, kind: str) -> str:
-    """Samples of one randomisation for each target, extrapolated ones in brackets."""
-    name = f"{curve.sampler} x {curve.points} ({kind})"
-    last = curve.levels[-1].samples if curve.levels else 0
-    needs = {t: curve.needed(t) for t in check.TARGETS}
-    text = ", ".join(f"{t:g}: {_shown(n, n > last)}" for t, n in needs.items())
-    if curve.fit:
-        low, high = (curve.fit.slope + s * curve.fit.half_width(check.SHOWN) for s in (-1, 1))
-        return f"{name}: slope in [{low:.2f}, {high:.2f}]; samples for {text}"
-    worst = max((v.error for v in curve.levels), default=0.0)
-    reason = "too few errors between 10 % and rounding"
-    reason = "exact at every N" if worst < check.CONSTANT else reason
-    return f"{name}: no slope, {reason}; samples for {text}"
+class Level(NamedTuple):
+    """The errors of R randomisations with N samples each, relative to the reference."""
+
+    samples: int
+    error: float  # root mean square
+    uncertainty: float  # of log2(error)
+    each: tuple[float, ...]
 
 
-def _shown(samples: float, extrapolated: bool) -> str:
+class Line(NamedTuple):
+    """A straight line through log2(error) against log2(N)."""
+
+    slope: float
+    stderr: float
+    origin: float
+    dof: int
+
+
+class Curve(NamedTuple):
+    """Error against N of one sampler with one point set."""
+
+    case: Case
+    sampler: str
+    points: str
+    smooth: bool
+    truth: float
+    floor: float  # relative error that the truth itself may have
+
+    def slope(self, plan: Plan) -> Slope:
+        """The slope with what a finding tells; plan.samples is the most that a level may take."""
+        levels = self.levels(plan)
+        line = self.fitted(levels)
+        fit = line or Line(math.nan, math.nan, math.nan, 1)
+        found = Slope(
+            fit.slope,
+            fit.stderr,
+            fit.dof,
+            samples=levels[-1].samples if levels else 0,
+            levels=[_row(v) for v in levels],
+            note="",
+            finite=not any(math.isnan(v.error) for v in levels),
+        )
+        return found._replace(note=self.note(found, levels, line))
+
+    def levels(self, plan: Plan) -> list[Level]:
+        """Double N until the error is as small as that of the reference or samples run out."""
+        levels: list[Level] = []
+        n, most = 1 << FIRST, plan.samples // randomisations(self.points)
+        while n <= most and not (levels and levels[-1].error < 2.0 * self.floor):
+            levels.append(self.level(plan, n))
+            n *= 2
+        return levels
+
+    def level(self, plan: Plan, n: int) -> Level:
+        """The errors at N = n."""
+        case, replicates = self.case, randomisations(self.points)
+        many = plan._replace(points=self.points, samples=n * replicates, replicates=replicates)
+        names = [integrand_name(case.model, "albedo", self.sampler)]
+        # a stream of its own per N: errors at different N are independent, as the fit assumes
+        stream = (NAME, self.sampler, n)
+        wo = case.wo(case.theta_o_deg[0])
+        row = estimates(case.model, case.one, wo, names, many, stream)
+        each = tuple(abs(m / self.truth - 1.0) for m in row[0][0].replicates)
+        squares = [e * e for e in each]
+        mean = math.fsum(squares) / len(squares)
+        spread = math.fsum([(s - mean) ** 2 for s in squares]) / (len(squares) - 1)
+        relative = math.sqrt(spread / len(squares)) / mean if mean else 0.0
+        return Level(n, math.sqrt(mean), max(0.5 * relative, 0.05) / math.log(2.0), each)
+
+    def fitted(self, levels: Sequence[Level]) -> Line | None:
+        """The line through the levels that are of use, if there is any."""
+        usable = USABLE_INDEPENDENT if self.points == "independent" else USABLE
+        line = fitted(levels, self.floor, usable)
+        if line is None and self.smooth and levels[-1].error >= USABLE:
+            line = fitted(levels, self.floor, math.inf)  # a fitted chart has no excuse
+        return line
+
+    def note(self, slope: Slope, levels: Sequence[Level], line: Line | None) -> str:
+        """Samples of one randomisation for each target, extrapolated ones in brackets."""
+        kind = "smooth in the fitted chart" if self.smooth else "cut or kinked"
+        name = f"{self.sampler} x {self.points} ({kind})"
+        needs = {t: needed(t, levels, line) for t in TARGETS}
+        text = ", ".join(f"{t:g}: {_power(n, n > slope.samples)}" for t, n in needs.items())
+        if line:
+            low, high = (line.slope + s * slope.half_width(SHOWN) for s in (-1, 1))
+            return f"{name}: slope in [{low:.2f}, {high:.2f}]; samples for {text}"
+        worst = max((v.error for v in levels), default=0.0)
+        few = "too few errors between 10 % and rounding"
+        reason = "exact at every N" if worst < CONSTANT else few
+        return f"{name}: no slope, {reason}; samples for {text}"
+
+
+def randomisations(points: str) -> int:
+    """How many a level takes."""
+    return RANDOMISATIONS_INDEPENDENT if points == "independent" else RANDOMISATIONS
+
+
+def fitted(levels: Sequence[Level], floor: float, usable: float = USABLE) -> Line | None:
+    """Weighted least squares; the spread about the line counts where it exceeds what R allows."""
+    used = [v for v in levels if max(10.0 * floor, CONSTANT) < v.error < usable]
+    if len(used) < FEWEST:
+        return None
+    weights = [v.uncertainty**-2 for v in used]
+    xs, ys = [math.log2(v.samples) for v in used], [math.log2(v.error) for v in used]
+    total = math.fsum(weights)
+    x0 = math.fsum(w * x for w, x in zip(weights, xs, strict=True)) / total
+    y0 = math.fsum(w * y for w, y in zip(weights, ys, strict=True)) / total
+    sxx = math.fsum(w * (x - x0) ** 2 for w, x in zip(weights, xs, strict=True))
+    sxy = math.fsum(w * (x - x0) * (y - y0) for w, x, y in zip(weights, xs, ys, strict=True))
+    slope = sxy / sxx
+    residuals = [y - y0 - slope * (x - x0) for x, y in zip(xs, ys, strict=True)]
+    chi2 = math.fsum(w * r * r for w, r in zip(weights, residuals, strict=True))
+    dof = len(used) - 2
+    return Line(slope, math.sqrt(max(1.0, chi2 / dof) / sxx), y0 - slope * x0, dof)
+
+
+def needed(target: float, levels: Sequence[Level], line: Line | None) -> float:
+    """Samples at which the error falls below a target: measured, else extrapolated."""
+    above = [v for v in levels if v.error > target]
+    below = [v for v in levels if v.samples > (above[-1].samples if above else 0)]
+    if below:
+        return float(below[0].samples)
+    if line is None or line.slope >= 0.0:
+        return math.inf
+    return float(2.0 ** min(200.0, (math.log2(target) - line.origin) / line.slope))
+
+
+def _power(samples: float, extrapolated: bool) -> str:
     if not math.isfinite(samples):
         return "never"
     text = f"2^{math.log2(samples):.1f}" if extrapolated else f"2^{math.log2(samples):.0f}"
     return f"({text})" if extrapolated else text
 
 
-def _row(level: check.Level) -> dict[str, Any]:
+def _row(level: Level) -> dict[str, Any]:
+    """A level as a finding shows it."""
     return {
         "estimator": f"N = {level.samples}",
         "samples": level.samples,

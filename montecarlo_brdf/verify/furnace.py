@@ -1,29 +1,31 @@
 """The furnace test of a model: directional albedo against angle."""
 from __future__ import annotations
 
+import contextlib
+import functools
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import furnace as furnace_check
-from montecarlo_brdf.estimate import adaptive
+from montecarlo_brdf.checks import furnace as check
+from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.arguments import check_theta
-from montecarlo_brdf.judge.finding import Report, Result
+from montecarlo_brdf.estimate.samplers import SAMPLERS, samplers_of
+from montecarlo_brdf.files import check_writable, write_text
+from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.verify.common import (
-    SAMPLES,
+from montecarlo_brdf.verify.results import (
     Progress,
-    check_tolerance,
-    chosen_samplers,
-    decided,
-    plan_settings,
-    planned,
+    Question,
+    answered,
+    chosen,
+    parameter_sets,
     reported,
-    shared_progress,
-    shown_parameters,
 )
-from montecarlo_brdf.verify.subject import probed, source
+from montecarlo_brdf.verify.settings import SAMPLES, Settings
 
 if TYPE_CHECKING:
     from montecarlo_brdf.estimate.partial_sums import PartialSums
@@ -49,45 +51,84 @@ def furnace(
     curve: bool = False,
     sums: PartialSums | None = None,
 ) -> Report:
-    """White furnace test of a model with one or several parameter sets.
+    """White furnace test: A(wo) equals its reference and is at most 1, at every angle.
 
-    p: a parameter set, a list of them, or None for the model's defaults. theta_o_deg: angles in
-    [0, 90) degrees. sampler: "all" or some of "uniform", "cosine", "own". samples: the most that a
-    claim may take; it stops sooner where it is decided. tolerance: relative for A, absolute for
-    A <= 1. target_error: relative; A is sampled until its 99 % interval is as narrow, by the method
-    that fits the model best (method "auto", which without a target chooses for `samples`). curve:
-    add the reference at every degree, for pictures. sums: `verify.resumption.partial_sums(file)`,
-    where billions of samples survive an interruption. Raises UserError for a bad value, ModelError
-    if the model does not run.
+    model: from `load`. p: a parameter set of `model.parameters`, a list of them, or None for the
+    defaults. theta_o_deg, phi_o_deg: the viewer's polar angles, one or several, in [0, 90), and
+    azimuth, in degrees. sampler: "all" or some of "uniform", "cosine", "own".
+    points: "sobol", "independent", "stratified" or "lattice". samples: the most that a claim may
+    take, 1 to 2^40; it stops sooner where it is decided. seed: 0 to 2^64 - 1. threads: 1 to 1024,
+    None for all processors; no result depends on it. tolerance: in [0, 1), relative for A, absolute
+    for A <= 1; None for 1e-4 and 1e-5. target_error: relative; A is sampled until its 99 % interval
+    is as narrow. method: "auto" takes the sampler and points that fit the model best, "given" those
+    given; None for "auto" with a target. progress: is called with the fraction done. curve: add the
+    reference at every degree, for pictures. sums: `partial_sums(file)`, where billions of samples
+    survive an interruption.
+
+    Returns a Report with one Result per parameter set. Raises UserError for a bad value, ModelError
+    if the model does not run, TooSlow if it does not return.
     """
-    sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
-    angles = theta_o_deg if isinstance(theta_o_deg, (list, tuple)) else [theta_o_deg]
-    thetas = [check_theta(a) for a in angles]
-    chosen = chosen_samplers(model, sampler)
-    chosen_method = method or ("given" if target_error is None else "auto")
-    plan = planned(points, samples, seed, threads)
-    plan = plan._replace(target_error=target_error, method=chosen_method, sums=sums)
-    adaptive.check_plan(plan)
-    check_tolerance(tolerance)
+    thetas = [check_theta(a) for a in _listed(theta_o_deg)]
+    samplers = _samplers(model, sampler)
+    settings = Settings(points, samples, seed, threads, tolerance, target_error, method, sums)
     started = time.perf_counter()
-    results = []
-    for i, one in enumerate(sets):
-        variant = model.of(one)
-        probed(variant, one)
-        only = None if sampler == "all" else chosen
-        case = Case(variant, one, thetas, phi_o_deg, only, tolerance, seed=seed)
-        share = shared_progress(progress, i, len(sets))
-        findings = decided(
-            furnace_check.claims(case), plan, variant, 2 * len(thetas) * len(case.sets), share
-        )
-        curves = furnace_check.curves(variant, one, max(thetas), phi_o_deg) if curve else []
-        shown = shown_parameters(variant, one)
-        results.append(Result(model.name, shown, "furnace", findings, curves, source(model)))
-    settings = {
-        "theta_o_deg": thetas,
-        "phi_o_deg": phi_o_deg,
-        "sampler": list(chosen),
-        "tolerance": tolerance,
-        **plan_settings(plan),
-    }
-    return reported("furnace", settings, results, started)
+    only = None if sampler == "all" else samplers
+    cases = [
+        Case(model.of(one), one, thetas, phi_o_deg, only, tolerance, seed=seed)
+        for one in parameter_sets(model, p)
+    ]
+    questions = [Question("furnace", case, check.claims) for case in cases]
+    count = 2 * len(thetas) * len(cases[0].sets) if cases else 1
+    results = answered(questions, settings.plan, count, progress)
+    if curve:
+        drawn = [check.curves(c.model, c.p, max(thetas), phi_o_deg) for c in cases]
+        results = [replace(r, curves=c) for r, c in zip(results, drawn, strict=True)]
+    told = {"theta_o_deg": thetas, "phi_o_deg": phi_o_deg, "sampler": samplers}
+    told |= {"tolerance": tolerance, **settings.told()}
+    return reported("furnace", told, results, started)
+
+
+def _listed(angles: Sequence[float] | float) -> Sequence[Any]:
+    return angles if isinstance(angles, (list, tuple)) else [angles]
+
+
+def _samplers(model: Model, asked: str | Sequence[str]) -> list[str]:
+    """The samplers asked for, if the model offers them."""
+    offered = samplers_of(model)
+    if "own" in ([asked] if isinstance(asked, str) else asked) and "own" not in offered:
+        raise UserError(f"model {model.name} has no sample and pdf, so no sampler of its own")
+    return chosen("sampler", asked, offered, SAMPLERS)
+
+
+@contextlib.contextmanager
+def partial_sums(path: str | Path | None) -> Iterator[PartialSums | None]:
+    """The partial sums of a run that may be interrupted and taken up again.
+
+    path: their file, written from time to time and at the end, also when the run ends by an error
+    or Ctrl-C, whole or not at all; None for none. Raises UserError if there is a file that holds
+    anything else, OutputError if it cannot be written.
+    """
+    if path is None:
+        yield None
+        return
+    path = Path(path)
+    check_writable(path)
+    sums = _read(path)
+    try:
+        yield sums
+    finally:
+        sums.write()
+
+
+def _read(path: Path) -> PartialSums:
+    from montecarlo_brdf.estimate.partial_sums import PartialSums
+
+    save = functools.partial(write_text, path)
+    if not path.exists():
+        return PartialSums(save)
+    try:
+        return PartialSums(save, path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise UserError(f"cannot read {path}: {error.strerror or error}") from error
+    except (UnicodeDecodeError, UserError) as error:
+        raise UserError(f"cannot resume from {path}: {error}") from error

@@ -1,19 +1,30 @@
-"""The identities of the hemisphere."""
+"""Identities of the hemisphere that everything else rests on, each estimated like any other number.
+
+What a constant 1, a power of the cosine, a Lambert surface and a light that is not constant must
+integrate to. Sources: Nicodemus et al. 1977 (reflectance); Pharr, Jakob, Humphreys, 4e, 4.1.
+"""
 from __future__ import annotations
 
+import functools
+import math
 import time
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
 
-from montecarlo_brdf.judge.finding import Report, Result
-from montecarlo_brdf.verify import _identities as identities_check
-from montecarlo_brdf.verify.common import (
-    SAMPLES,
-    Progress,
-    check_tolerance,
-    decided,
-    plan_settings,
-    planned,
-    reported,
-)
+from montecarlo_brdf.estimate import integrands
+from montecarlo_brdf.estimate.evaluate import evaluate
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.subject import Subject
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, MeanClaim, Reference
+from montecarlo_brdf.judge.finding import Bound, Report, Result
+from montecarlo_brdf.vectors import NORMAL, Vec, from_degrees
+from montecarlo_brdf.verify.results import Progress, decided, reported
+from montecarlo_brdf.verify.settings import SAMPLES, Settings
+
+NAME = "identities"
+#: irradiance of the light 1 + 2 cos(theta): pi a + 2 pi b / 3 with a = 1, b = 2
+IRRADIANCE = math.pi + 4.0 * math.pi / 3.0
 
 
 def identities(
@@ -25,11 +36,126 @@ def identities(
     tolerance: float | None = None,
     progress: Progress | None = None,
 ) -> Report:
-    """The identities of the hemisphere, each estimated and judged."""
-    plan = planned(points, samples, seed, threads)
-    check_tolerance(tolerance)
+    """The identities of the hemisphere, each estimated and judged.
+
+    points: "sobol", "independent", "stratified" or "lattice". samples: the most that an identity
+    may take, 1 to 2^40. seed: 0 to 2^64 - 1. threads: 1 to 1024, None for all processors; no result
+    depends on it. tolerance: relative, in [0, 1); None for 1e-4. progress: is called with the
+    fraction done.
+
+    Returns a Report with one Result. Raises UserError for a bad value.
+    """
+    settings = Settings(points, samples, seed, threads, tolerance)
     started = time.perf_counter()
-    claims = list(identities_check.claims(tolerance))
-    findings = decided(claims, plan, None, len(claims), progress)
-    settings = {"tolerance": tolerance, **plan_settings(plan)}
-    return reported("identities", settings, [Result("", {}, "identities", findings)], started)
+    found = list(claims(AGREEMENT_TOLERANCE if tolerance is None else tolerance))
+    findings = decided(found, settings.plan, {}, count=len(found), progress=progress)
+    told = {"tolerance": tolerance, **settings.told()}
+    return reported(NAME, told, [Result("", {}, NAME, findings)], started)
+
+
+class Power(NamedTuple):
+    """Of `cosine_power`."""
+
+    n: float = 0.0
+
+
+class Albedo(NamedTuple):
+    """Of Lambert's surface."""
+
+    albedo: float = 0.8
+
+
+def cosine_power(w: Vec, p: Power) -> float:
+    """cos(theta)^n for whole n."""
+    value = 1.0
+    for _ in range(int(p.n)):
+        value *= w[2]
+    return value
+
+
+def lambert(wo: Vec, wi: Vec, p: Albedo) -> float:
+    """Lambert's BRDF."""
+    return p.albedo / math.pi
+
+
+def lit_lambert(wo: Vec, wi: Vec, p: Albedo) -> float:
+    """Lambert's BRDF times the light 1 + 2 cos(theta_i)."""
+    return p.albedo / math.pi * (1.0 + 2.0 * wi[2])
+
+
+def lit_share(wo: Vec, wi: Vec, p: Albedo) -> float:
+    """The same per irradiance, so that its flux is Phi_out / Phi_in."""
+    return p.albedo * (1.0 + 2.0 * wi[2]) / IRRADIANCE
+
+
+class Identity(NamedTuple):
+    """A number with its exact value and how it is estimated."""
+
+    quantity: str
+    function: Callable[..., float]
+    p: Power | Albedo
+    integrand: str
+    exact: float
+    why: str
+    where: dict[str, Any] = {}
+    fixed: Vec = NORMAL
+    bound: Bound = Bound.EQUAL
+
+
+def listed() -> Iterator[Identity]:
+    """All identities."""
+    uniform, cosine = "hemisphere_uniform", "hemisphere_cosine"
+    yield Identity("int dw", cosine_power, Power(0.0), uniform, 2.0 * math.pi, "solid angle")
+    yield Identity("int cos dw", cosine_power, Power(1.0), uniform, math.pi, "projected hemisphere")
+    for n in (2, 5, 20):
+        exact = 2.0 * math.pi / (n + 1)
+        yield Identity(f"int cos^{n} dw", cosine_power, Power(n), uniform, exact, "2 pi/(n + 1)")
+    yield Identity("area of the unit disk", cosine_power, Power(1.0), cosine, math.pi, "its lift")
+    for theta in (0.0, 45.0, 85.0):
+        yield Identity(
+            "L_o of Lambert under L = 1 + 2 cos",
+            lit_lambert,
+            Albedo(),
+            "albedo_uniform",
+            0.8 / math.pi * IRRADIANCE,
+            "the same from every direction",
+            {"theta_o_deg": theta},
+            from_degrees(theta),
+        )
+    yield Identity(
+        "Phi_out/Phi_in under L = 1 + 2 cos",
+        lit_share,
+        Albedo(),
+        "bihemispherical_uniform",
+        0.8,
+        "the albedo under any light",
+    )
+    yield Identity(
+        "A of f = C_d = 1/pi",
+        lambert,
+        Albedo(1.0),
+        "albedo_uniform",
+        1.0,
+        "the largest constant BRDF: C_d <= 1/pi",
+        bound=Bound.AT_MOST,
+    )
+
+
+def claims(tolerance: float) -> Iterator[MeanClaim]:
+    """One claim per identity; tolerance: relative."""
+    for identity in listed():
+        yield MeanClaim(
+            identity.quantity,
+            identity.where,
+            identity.bound,
+            Reference(identity.exact, 0.0, Kind.CLOSED_FORM, identity.why),
+            tolerance * identity.exact,
+            functools.partial(_measure, identity),
+        )
+
+
+def _measure(identity: Identity, plan: Plan) -> list[Measurement]:
+    subject = Subject((NAME, identity.quantity), {"F": identity.function}, [identity.p])
+    integrand = getattr(integrands, identity.integrand)
+    row = evaluate(subject, identity.fixed, [integrand], plan, (NAME,))[0]
+    return [Measurement(identity.integrand.partition("_")[2], row[0])]

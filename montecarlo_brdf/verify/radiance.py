@@ -9,11 +9,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference
-from montecarlo_brdf.judge.decide import decide
-from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
+from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdict
+from montecarlo_brdf.model import Property
 from montecarlo_brdf.report.sentences import place
 from montecarlo_brdf.scene import claims as scene_claims
 from montecarlo_brdf.scene.plan import ScenePlan
@@ -21,17 +20,11 @@ from montecarlo_brdf.scene.reverse import reversed_scene
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.standard import Standard
 from montecarlo_brdf.scene.standard_lobes import as_lobes, mend
-from montecarlo_brdf.verify.common import (
-    SAMPLES,
-    Progress,
-    check_tolerance,
-    exactly,
-    plan_settings,
-    planned,
-    reported,
-)
+from montecarlo_brdf.verify.results import Progress, decided, probed, reported
+from montecarlo_brdf.verify.settings import SAMPLES, Settings, exactly
 
 WEIGHT_ROUNDING = 1e-12  # weights like 0.1 + 0.2 + 0.7 add up to 1 only within rounding
+WEIGHTS = "sum of weights <= 1"
 
 
 def radiance(
@@ -50,53 +43,53 @@ def radiance(
 
     scene: from `read_scene` or `scene_of`. skip: leave out what the scene does not need (never
     changes a result beyond rounding and its error bar). energy: also judge A <= 1, and R <= 1 if
-    the surface is not reciprocal. samples: the most that a claim may take. Raises UserError for a
-    bad value, ModelError if a model fails.
+    the surface is not reciprocal. points: "sobol", "independent", "stratified" or "lattice".
+    samples: the most that a claim may take, 1 to 2^40. seed: 0 to 2^64 - 1. threads: 1 to 1024,
+    None for all processors; no result depends on it. tolerance: in [0, 1), relative for L_o,
+    absolute for A <= 1; None for 1e-4 and 1e-5. progress: is called with the fraction done.
+
+    Returns a Report with one Result; radiances in the unit of the scene's lights. Raises UserError
+    for a bad value, ModelError if a model fails, TooSlow if one does not return.
     """
-    sampling = planned(points, samples, seed, threads)
-    check_tolerance(tolerance)
+    settings = Settings(points, samples, seed, threads, tolerance)
     started = time.perf_counter()
     for lobe in as_lobes(scene).surface.lobes:  # type: ignore[union-attr]
         for p in dict.fromkeys(lobe.sets):
-            probe.check(lobe.model, p)
+            probed(lobe.model, p)
     plan = scene_claims.plan_of(scene, skip)
-    findings: list[Finding] = []
-    total = _count(scene, energy)
-    for claim in _claims(scene, plan, tolerance, skip, energy):
-        finding = decide(claim, sampling, _known(scene, claim))
-        if finding.verdict not in ("pass", "skipped"):
-            command = reproduction(scene, finding, sampling, skip, tolerance)
-            finding = replace(finding, reproduce=command)
-        findings.append(finding)
-        if progress:
-            progress(min(1.0, len(findings) / total))
-    settings = {
+    findings = decided(
+        _claims(scene, plan, tolerance, skip, energy),
+        settings.plan,
+        _disclaims(scene),
+        functools.partial(_repeat, scene, settings, skip),
+        count=_count(scene, energy),
+        progress=progress,
+    )
+    told = {
         "theta_o_deg": list(scene.view.theta_o_deg),
         "phi_o_deg": list(scene.view.phi_o_deg),
         "skip": skip,
         "tolerance": tolerance,
-        "plan": explained(plan, sampling),
-        **plan_settings(sampling),
+        "plan": explained(plan, settings.plan),
+        **settings.told(),
     }
     result = Result(scene.name, {}, "radiance", _with_reading(scene, findings))
-    return reported("radiance", settings, [result], started)
+    return reported("radiance", told, [result], started)
 
 
 def _claims(
     scene: Scene, plan: ScenePlan, tolerance: float | None, skip: bool, energy: bool
 ) -> Iterator[Claim]:
     for k, total in enumerate(scene_claims.weight_sums(scene)):
-        where = {"channel": k} if scene.channels > 1 else {}
-        bound = Reference(1.0, 0.0, "bound", "lobes share the light that arrives")
         exact = Exact(total, hint=None if total <= 1.0 else "reduce a weight")
         yield ExactClaim(
-            "sum of weights <= 1",
-            where,
-            "at most",
-            bound,
+            WEIGHTS,
+            {"channel": k} if scene.channels > 1 else {},
+            Bound.AT_MOST,
+            Reference(1.0, 0.0, Kind.BOUND, "lobes share the light that arrives"),
             WEIGHT_ROUNDING,
             functools.partial(_same, exact),
-            property="weights",
+            property=None,
         )
     yield from scene_claims.claims(scene, plan, tolerance)
     if energy or scene.band:
@@ -118,47 +111,35 @@ def _count(scene: Scene, energy: bool) -> int:
     return scene.channels * thetas * (phis + energy) + (thetas if scene.band else 0)
 
 
-def _known(scene: Scene, claim: Claim) -> str | None:
+def _disclaims(scene: Scene) -> dict[str, str]:
     """Why a refuted claim is no surprise: nobody ever made it."""
-    if getattr(claim, "property", "") != "energy":
-        return None
     if isinstance(scene.surface, Standard):
-        return "the standard lighting equation does not conserve energy"
-    reasons = [
-        lobe.model.disclaims.get("energy") for lobe in scene.surface.lobes if any(lobe.weights)
-    ]
-    return next((r for r in reasons if r), None)
+        return {Property.ENERGY: "the standard lighting equation does not conserve energy"}
+    lit = (lobe.model for lobe in scene.surface.lobes if any(lobe.weights))
+    reasons = [m.disclaims[Property.ENERGY] for m in lit if Property.ENERGY in m.disclaims]
+    return {Property.ENERGY: reasons[0]} if reasons else {}
 
 
-def reproduction(
-    scene: Scene, finding: Finding, sampling: Plan, skip: bool, tolerance: float | None
-) -> str | None:
+def _repeat(scene: Scene, settings: Settings, skip: bool, finding: Finding) -> str | None:
     """A command line that gives this finding again; None for a scene made by hand."""
     if not scene.words:
         return None
     words = ["brdf-check", "radiance", *scene.words]
-    angles = [v for k, v in finding.where.items() if k.startswith("theta")]
+    angles = [finding.where[k] for k in ("theta_o_deg", "theta_i_deg") if k in finding.where]
     words += [word for theta in angles for word in ("--theta-o", exactly(theta))]
-    defaults: dict[str, tuple[Any, Any]] = {
-        "--points": (sampling.points, "sobol"),
-        "--samples": (sampling.samples, SAMPLES),
-        "--seed": (sampling.seed, 0),
-        "--tolerance": (None if tolerance is None else exactly(tolerance), None),
-    }
-    for option, (value, default) in defaults.items():
-        words += [option, str(value)] if value != default else []
+    words += [*settings.options(Settings()), *settings.tolerance_option()]
     return shlex.join(words if skip else [*words, "--no-skip"])
 
 
 def _with_reading(scene: Scene, findings: list[Finding]) -> list[Finding]:
     """By how much the standard lighting equation gains energy, and which factors would mend it."""
-    gains = [f for f in findings if f.verdict == "known"]
+    gains = [f for f in findings if f.verdict == Verdict.KNOWN]
     if not gains or not isinstance(scene.surface, Standard):
         return findings
     worst = max(gains, key=lambda f: f.value)
     told = f"it reflects up to {worst.value:.4g} times what arrives ({place(worst)})"
     note = f"{worst.note}: {told}; {mend(scene.surface)}"
-    return [replace(f, note=note, hint=None) if f.verdict == "known" else f for f in findings]
+    return [replace(f, note=note, hint=None) if f.verdict == Verdict.KNOWN else f for f in findings]
 
 
 def explained(plan: ScenePlan, sampling: Plan) -> list[dict[str, Any]]:

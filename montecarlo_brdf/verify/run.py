@@ -1,32 +1,41 @@
 """All checks of a model, in time, interruptible, each finding with a command that repeats it.
 
-The checks run where they can be left (verify.tasks); what they left undone is inconclusive.
+The checks of a case run side by side where they can be left (verify.supervision); what they left
+undone is inconclusive, never forgotten.
 """
 from __future__ import annotations
 
-import math
+import functools
+import shlex
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case, searched
-from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.errors import TooSlow
 from montecarlo_brdf.estimate.arguments import check_theta
-from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.verify.common import (
-    Deadline,
+from montecarlo_brdf.verify.results import (
     Progress,
-    check_tolerance,
-    plan_settings,
-    planned,
+    Question,
+    chosen,
+    judged,
+    parameter_sets,
+    probed,
     reported,
+    shown_parameters,
 )
-from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
-from montecarlo_brdf.verify.tasks import Task, perform
+from montecarlo_brdf.verify.settings import Settings, exactly
+from montecarlo_brdf.verify.supervision import Deadline, supervised
 
-RUN_ANGLES = (0.0, 45.0, 80.0)
+ANGLES = (0.0, 45.0, 80.0)
+SAMPLES = 1 << 20
+GRACE = 1.0  # seconds that a claim may go on after --max-time
+MOST = 4  # tasks at once: what they do between kernels shares one interpreter
 
 
 def run(
@@ -34,55 +43,161 @@ def run(
     p: Any = None,
     *,
     names: Sequence[str] | None = None,
-    theta_o_deg: Sequence[float] = RUN_ANGLES,
+    theta_o_deg: Sequence[float] = ANGLES,
     phi_o_deg: float = 0.0,
     fixed: Iterable[str] = (),
     against: Model | None = None,
     points: str = "sobol",
-    samples: int = RUN_SAMPLES,
+    samples: int = SAMPLES,
     seed: int = 0,
     threads: int | None = None,
     tolerance: float | None = None,
     deadline: Deadline | None = None,
     progress: Progress | None = None,
 ) -> Report:
-    """Every check (or those in `names`) of a model with one or several parameter sets.
+    """Every check of a model, or those named, for one or several parameter sets.
 
-    fixed: parameters that worst-case searches leave alone; the others are searched over their
-    range unless `p` is given. deadline: stop in time and report what is left as inconclusive.
-    Other arguments as for `furnace`. An interruption returns what was found so far.
+    model: from `load`. p: a parameter set of `model.parameters`, a list of them, or None for the
+    defaults and a search for the worst over the ranges of all parameters. names: of checks, None
+    for all. theta_o_deg, phi_o_deg: the viewer's polar angles in [0, 90) and azimuth, in degrees,
+    for checks that look at some. fixed: parameters that searches leave alone; the others are
+    searched over their range, also where `p` is given. against: a model that it must equal.
+    points: "sobol", "independent", "stratified" or "lattice". samples: the most that a claim may
+    take, 1 to 2^40. seed: 0 to 2^64 - 1. threads: 1 to 1024, None for all processors; no result
+    depends on it. tolerance: in [0, 1), instead of each claim's own. deadline: no claim is begun
+    after it, and what is left is inconclusive. progress: is called with the fraction done.
+
+    Returns a Report with one Result per parameter set and check; an interruption returns what was
+    found so far, and says so in `measured`. Raises UserError for a bad value, ModelError if the
+    model does not run.
     """
-    chosen = _checks(names)
-    sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
+    asked = chosen("check", names or "all", checks.names())
+    asked = [name for name in checks.names() if name in asked]
     angles = [check_theta(a) for a in theta_o_deg]
-    plan = planned(points, samples, seed, threads)
-    check_tolerance(tolerance)
+    settings = Settings(points, samples, seed, threads, tolerance)
     started = time.perf_counter()
-    deadline = deadline or Deadline(math.inf)
     groups = []
-    for one in sets:
+    for one in parameter_sets(model, p):
         variant = model.of(one)
         free = searched(variant, dict.fromkeys(fixed)) if p is None or fixed else ()
         case = Case(
             variant, one, angles, phi_o_deg, None, tolerance, free, against=against, seed=seed
         )
-        groups.append([Task(case, name) for name in chosen])
+        groups.append([Task(Question(n, case, checks.find(n).claims)) for n in asked])
     why, interrupted = "--max-time was over", False
     try:
-        perform(groups, plan, deadline, progress)
+        perform(groups, settings, deadline or Deadline(), progress)
     except KeyboardInterrupt:
         why, interrupted = "interrupted", True
-    settings = {"checks": chosen, "theta_o_deg": angles, "tolerance": tolerance}
-    settings |= plan_settings(plan)
+    told = {"checks": asked, "theta_o_deg": angles, "tolerance": tolerance, **settings.told()}
     results = [task.result(why) for group in groups for task in group]
-    report = reported("run", settings, results, started)
+    report = reported("run", told, results, started)
     report.measured["interrupted"] = interrupted
     return report
 
 
-def _checks(names: Sequence[str] | None) -> list[str]:
-    known = checks.names()
-    for name in names or ():
-        if name not in known:
-            raise UserError(unknown("check", name, known))
-    return [n for n in known if not names or n in names]
+@dataclass
+class Task:
+    """One check of one case, and what is found so far."""
+
+    question: Question
+    findings: list[Finding] = field(default_factory=list)
+    begun: bool = False
+    done: bool = False
+    slow: str = ""  # why the model could not even be evaluated once
+    waiting: bool = False  # for the model to return from its first evaluations
+
+    @property
+    def share(self) -> float:
+        """How much of it is done, for progress."""
+        return 1.0 if self.done else 0.5 if self.findings else 0.0
+
+    def result(self, why: str) -> Result:
+        """The findings, and one more that is inconclusive if the task is not done."""
+        findings = list(self.findings)
+        if not self.done:
+            late = self.slow or f"not {'finished' if self.begun else 'begun'}: {why}"
+            if self.waiting:
+                late += " before the model returned from its first few evaluations"
+            findings.append(Finding(self.question.name, {}, Verdict.INCONCLUSIVE, note=late))
+        return self.question.result(findings)
+
+    def fill(self, settings: Settings, plan: Plan, deadline: Deadline, tell: Told) -> None:
+        """Decide the claims, each begun before the deadline."""
+        name, case, claims = self.question
+        repeat = functools.partial(_repeat, case, name, settings)
+        self.begun = True
+        for claim in claims(case):
+            if deadline.over():
+                return
+            self.findings.append(judged(claim, plan, case.model.disclaims, repeat))
+            tell()
+        self.done = True
+        tell()
+
+
+Told = Callable[[], None]
+
+
+def perform(
+    groups: Sequence[Sequence[Task]],
+    settings: Settings,
+    deadline: Deadline,
+    progress: Progress | None = None,
+) -> None:
+    """Do the tasks of one case after another until the deadline; those of a case side by side."""
+
+    def tell() -> None:
+        if progress:
+            progress(sum(t.share for g in groups for t in g) / sum(map(len, groups)))
+
+    plan = settings.plan
+    together = min(plan.threads, MOST)
+    alone = plan._replace(threads=max(1, plan.threads // together))
+    for group in groups:
+        look = functools.partial(_first_look, group)
+        if deadline.over() or not supervised(look, deadline, GRACE):
+            return
+        if not group[0].slow:
+            # the last has soon all threads to itself; `next` of a list's iterator is atomic
+            rest = iter([*((task, alone) for task in group[:-1]), (group[-1], plan)])
+            work = functools.partial(_work, rest, settings, deadline, tell)
+            if not supervised(work, deadline, GRACE, together):
+                return
+
+
+def _first_look(tasks: Sequence[Task]) -> None:
+    """Find out whether the model of some tasks can be sampled; if this is left they can tell."""
+    for task in tasks:
+        task.waiting = True
+    slow, case = "", tasks[0].question.case
+    try:
+        probed(case.model, case.p)
+    except TooSlow as error:
+        slow = str(error)
+    for task in tasks:
+        task.slow, task.waiting = slow, False
+
+
+def _work(
+    rest: Iterator[tuple[Task, Plan]], settings: Settings, deadline: Deadline, tell: Told
+) -> None:
+    """Take tasks and do them until none is left or the deadline is over."""
+    for task, plan in rest:
+        if deadline.over():
+            return
+        task.fill(settings, plan, deadline, tell)
+
+
+def _repeat(case: Case, name: str, settings: Settings, finding: Finding) -> str:
+    """The command line that gives a finding again."""
+    words = ["brdf-check", "run", "--model", case.model.name, "--check", name]
+    free = {case.model.labels.get(n, n) for n in case.free}
+    for key, value in shown_parameters(case.model, case.p).items():
+        values = value if isinstance(value, tuple) else (value,)
+        words += [] if key in free else ["-p", f"{key}={'/'.join(map(str, values))}"]
+    words += ["--theta-o", ",".join(map(exactly, case.theta_o_deg))]
+    words += ["--phi-o", exactly(case.phi_o_deg)] if case.phi_o_deg else []
+    words += settings.options(Settings(samples=SAMPLES))
+    words += ["--against", case.against.name] if case.against else []
+    return shlex.join([*words, *settings.tolerance_option()])

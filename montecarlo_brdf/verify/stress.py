@@ -7,13 +7,19 @@ from collections.abc import Sequence
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.judge.decide import decide
+from montecarlo_brdf.judge.finding import Report, Result
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.report import stress as report_stress
 from montecarlo_brdf.stability import designed
 from montecarlo_brdf.stability.arithmetic import ladder, precision
-from montecarlo_brdf.stability.stress import Outcome, outcome
-from montecarlo_brdf.verify.common import Progress, reported
+from montecarlo_brdf.stability.claims import claims
+from montecarlo_brdf.stability.stress import Loss, loss
+from montecarlo_brdf.verify.results import Progress, part_of, reported
+
+#: Precisions that a model is held to unless it is asked for others by name.
+PROMISED = ("float32", "float64")
+UNASKED = "measured, not promised: --precision {} makes it a claim"
 
 
 def stress(
@@ -25,63 +31,58 @@ def stress(
     quick: bool = False,
     progress: Progress | None = None,
 ) -> Report:
-    """Numerical stability of one or several models, as a Report.
+    """Numerical stability of one or several models.
 
-    p: parameter sets, or None for a designed set over the whole domain. precisions: names of types
-    that the models are held to; by default all are measured, single and double are judged.
-    max_error: the relative error allowed, by default 1e-5 in single and 1e-13 in double.
+    models: one, or several, from `load`. p: a list of parameter sets, or None for a designed one
+    over the whole domain. precisions: names of types ("bfloat16", "float16", "float32", "float64",
+    "longdouble") that the models are held to; None: all are measured, single and double judged.
+    max_error: the relative error of f that is allowed, in (0, 1]; None for 1e-5 in single and 1e-13
+    in double. quick: fewer points. progress: is called with the fraction done.
+
+    Returns a Report with one Result per model. Raises UserError for a bad value, ModelError if f
+    does not run in a precision.
     """
-    return stressed(models, p, precisions, max_error, quick, progress)[0]
-
-
-def stressed(
-    models: Model | Sequence[Model],
-    p: Any = None,
-    precisions: Sequence[str] | None = None,
-    max_error: float | None = None,
-    quick: bool = False,
-    progress: Progress | None = None,
-) -> tuple[Report, list[tuple[Model, list[Outcome]]]]:
-    """The report and the measurements it is made of, per model."""
     if max_error is not None and not 0.0 < max_error <= 1.0:
         raise UserError(f"max-error must be a number in (0, 1], not {max_error}")
-    chosen = [precision(name) for name in precisions or ladder()]
-    promised = tuple(precisions or report_stress.PROMISED)
+    asked = [precision(name) for name in precisions or ladder()]
     models = [models] if isinstance(models, Model) else list(models)
     started = time.perf_counter()
     found = []
-    jobs = len(models) * len(chosen)
     for i, model in enumerate(models):
         sets = list(p) if p else designed.parameters(model, quick)
         many = []
-        for k, arithmetic in enumerate(chosen):
-            place = i * len(chosen) + k
-            share = _share(progress, place, jobs)
-            many.append(outcome(model, sets, arithmetic, max_error, quick, share))
+        for k, one in enumerate(asked):
+            part = part_of(progress, i * len(asked) + k, len(models) * len(asked))
+            many.append(loss(model, sets, one, max_error, quick, part))
         found.append((model, many))
-    results = [report_stress.result(model, many, promised) for model, many in found]
-    settings = {"precisions": [c.name for c in chosen], "max_error": max_error, "quick": quick}
-    report = reported("stress", settings, results, started)
-    report.measured["precisions"] = [[_measured(o) for o in many] for _, many in found]
-    return report, found
+    results = [result(model, many, tuple(precisions or PROMISED)) for model, many in found]
+    told = {"precisions": [one.name for one in asked], "max_error": max_error, "quick": quick}
+    report = reported("stress", told, results, started)
+    report.measured["precisions"] = [[_numbers(one) for one in many] for _, many in found]
+    return report
 
 
-def _measured(o: Outcome) -> dict[str, Any]:
-    """What a precision did to a model, in numbers; NaN where no value of the parameter is safe."""
-    parameter, safe = o.safe or (None, None)
+def _numbers(one: Loss) -> dict[str, Any]:
+    """What a precision lost, for the table; NaN where no value of the parameter is safe."""
+    parameter, safe = one.safe or (None, None)
     return {
-        "name": o.precision,
-        "eps": o.eps,
-        "points": o.points,
-        "worst": o.worst.own if o.worst else 0.0,
-        "allowed": o.tolerance,
-        "with_inputs": o.worst_total.total if o.worst_total else 0.0,
-        **o.counts,
+        "name": one.precision,
+        "eps": one.eps,
+        "points": one.points,
+        "worst": one.worst.own if one.worst else 0.0,
+        "allowed": one.tolerance,
+        "with_inputs": one.worst_total.total if one.worst_total else 0.0,
+        **one.counts,
         "parameter": parameter,
         "safe": safe,
-        "length": o.draws.length if o.draws else None,
+        "length": one.draws.length if one.draws else None,
     }
 
 
-def _share(progress: Progress | None, place: int, jobs: int) -> Progress | None:
-    return (lambda done: progress((place + done) / jobs)) if progress else None
+def result(model: Model, found: Sequence[Loss], promised: Sequence[str]) -> Result:
+    """The findings of all precisions of one model; its curves are the heat maps."""
+    findings = []
+    for one in found:
+        known = None if one.precision in promised else UNASKED.format(one.precision)
+        findings += [decide(claim, Plan(), known) for claim in claims(model, one)]
+    return Result(model.name, dict(model.picks), "stability", findings, [one.heat for one in found])

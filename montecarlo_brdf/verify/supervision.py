@@ -7,22 +7,26 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import math
 import sys
 import threading
 import time
 from collections.abc import Callable
-from typing import Any, Protocol
 
 TICK = 0.1  # seconds; waiting that cannot be interrupted (on Windows) must be short
 UNWINDING = 0.25  # seconds: an import that is cut off must be cleared away before others import
 STACK = 64 << 20  # bytes: compilers recurse deeply, and some systems give threads little
 
 
-class Limit(Protocol):
-    """Anything that knows when the time is up."""
+class Deadline:
+    """A moment after which no new claim is begun."""
+
+    def __init__(self, seconds: float = math.inf) -> None:
+        self._end = time.monotonic() + seconds
 
     def over(self) -> bool:
-        """Whether it is."""
+        """Whether the time is up."""
+        return time.monotonic() > self._end
 
 
 class Left(BaseException):
@@ -32,7 +36,7 @@ class Left(BaseException):
 class _Work:
     """A function in a thread, with what became of it."""
 
-    def __init__(self, function: Callable[[], Any]) -> None:
+    def __init__(self, function: Callable[[], object]) -> None:
         self._function = function
         self.error: BaseException | None = None
         self.ended = threading.Event()
@@ -58,7 +62,7 @@ def _hush() -> None:
     """In a compiler's callback `Left` cannot be raised: Python need not print it either."""
     before = sys.unraisablehook
 
-    def hook(unraisable: Any) -> None:
+    def hook(unraisable: sys.UnraisableHookArgs) -> None:
         if unraisable.exc_type is not Left:
             before(unraisable)
 
@@ -66,7 +70,7 @@ def _hush() -> None:
 
 
 def supervised(
-    function: Callable[[], Any], limit: Limit, grace: float = 0.0, threads: int = 1
+    function: Callable[[], object], limit: Deadline, grace: float = 0.0, threads: int = 1
 ) -> bool:
     """Run `function`, in several threads at once if so asked; False if it was left because the
     limit was over for `grace` seconds.
@@ -108,7 +112,7 @@ def _leave(works: list[_Work]) -> None:
         work.ended.wait(max(0.0, until - time.monotonic()))
 
 
-def _started(function: Callable[[], Any]) -> _Work:
+def _started(function: Callable[[], object]) -> _Work:
     size = threading.stack_size()
     threading.stack_size(STACK)
     try:

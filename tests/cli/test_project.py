@@ -42,20 +42,22 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], 
     return write
 
 
-def test_jobs(project: Callable[[str], Path]) -> None:
-    jobs = _project.read(project(GOOD)).jobs
-    assert [(j.model.name, j.checks, j.tolerance) for j in jobs] == [
+def test_requests(project: Callable[[str], Path]) -> None:
+    requests = _project.read(project(GOOD)).requests
+    assert [(r.model.name, r.terms.names, r.terms.tolerance) for r in requests] == [
         ("../mine.py", ("reciprocity",), None),
         ("lambert", ("reciprocity",), None),
         ("lambert", ("isotropy",), 1e-3),
     ]
-    assert all(j.theta_o_deg == [0.0, 60.0] and j.samples == 16384 for j in jobs)
-    assert jobs[1].p is not None and [tuple(p) for p in jobs[1].p] == [(0.2,), ((0.9, 0.5),)]
-    assert [j.title() for j in jobs[1].single()] == [
+    assert all(r.terms.theta_o_deg == [0.0, 60.0] for r in requests)
+    assert all(r.terms.samples == 16384 for r in requests)
+    assert [tuple(p) for p in requests[1].p or ()] == [(0.2,), ((0.9, 0.5),)]
+    assert [r.title() for r in requests[1].single()] == [
         "lambert(albedo=0.2)",
         "lambert(albedo=0.9/0.5)",
     ]
-    assert _project.read(project(GOOD), {"seed": 3, "tolerance": 0.5}).jobs[1].tolerance == 0.5
+    again = _project.read(project(GOOD), {"seed": 3, "tolerance": 0.5}).requests
+    assert again[1].terms.tolerance == 0.5
 
 
 def test_run_finds_the_file_above(

@@ -11,15 +11,15 @@ import pytest
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.stability import arithmetic, designed
-from montecarlo_brdf.stability.stress import Outcome, outcome
+from montecarlo_brdf.stability.stress import Loss, loss
 
 DEAR = ("ggx_kulla_conty", "oren_nayar_full")  # more than 7 s each
 
 
-def stressed(name: str, precision: str) -> Outcome:
+def stressed(name: str, precision: str) -> Loss:
     model = loading.load(name)
     one = arithmetic.precision(precision)
-    return outcome(model, designed.parameters(model, quick=True), one, quick=True)
+    return loss(model, designed.parameters(model, quick=True), one, quick=True)
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])

@@ -81,10 +81,10 @@ def test_a_heat_map_has_a_cell_per_angle_and_value_and_names_the_parameter() -> 
 
 def test_a_model_that_disclaims_positivity_may_be_negative() -> None:
     from montecarlo_brdf import loading
-    from montecarlo_brdf.report.stress import result
-    from montecarlo_brdf.stability.stress import Outcome
+    from montecarlo_brdf.stability.stress import Loss
+    from montecarlo_brdf.verify.stress import result
 
-    found = Outcome("float32", 1e-5, 2.0**-23, counts={"nan": 0, "inf": 0, "negative": 3})
+    found = Loss("float32", 1e-5, 2.0**-23, counts={"nan": 0, "inf": 0, "negative": 3})
     said = {n: result(loading.load(n), [found], ("float32",)) for n in ("phong", "phong_unclamped")}
     verdicts = {n: [(f.quantity, f.verdict) for f in r.findings][1] for n, r in said.items()}
     assert verdicts["phong"] == ("f is NaN, Inf, negative", "fail")
