@@ -29,7 +29,7 @@ def load(spec: str, **picks: str) -> Model:
     """The model `spec`: a built-in name, `my_brdf.py`, `my_brdf.py:name`, or a weighted sum of
     them, "0.6 lambert + 0.4 ggx".
 
-    picks: one option per choice the model offers, e.g. norm="n+8".
+    spec: one of these. picks: one option per choice the model offers, e.g. norm="n+8".
     Raises UserError for an unknown name or a missing file, ModelError if the file does not load.
     """
     spec = str(spec)

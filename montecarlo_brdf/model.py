@@ -68,7 +68,10 @@ class Model:
     rebuild: Function | None = field(default=None, repr=False)  # picks -> the variant
 
     def variant(self, **picks: str) -> Model:
-        """The same model with other choices; the rest keep their current pick."""
+        """The same model with other choices; the rest keep their current pick.
+
+        picks: an option per choice, as norm="n+8". Raises UserError for a name that is not offered.
+        """
         for category, pick in picks.items():
             if category not in self.choices:
                 raise UserError(unknown(f"choice of model {self.name}", category, self.choices))
@@ -79,9 +82,9 @@ class Model:
     def parameters(self, **values: Any) -> Any:
         """A parameter set as a NamedTuple of floats, checked against the domain.
 
-        Choices (`norm="n+8"`) may be given beside numbers. A tuple of numbers makes a colour: one
-        channel per number. Raises UserError for an unknown name, or a value that is not a finite
-        number of the domain.
+        values: numbers by name; a tuple of numbers makes a colour, one channel per number. Choices
+        (`norm="n+8"`) may be given beside them. Raises UserError for an unknown name, or a value
+        that is not a finite number of the domain.
         """
         picks = {k: values.pop(k) for k in list(values) if k in self.choices}
         model = self.variant(**picks) if picks else self
@@ -100,12 +103,18 @@ class Model:
         return model.Params(**{**floats, **checked})
 
     def of(self, p: Any) -> Model:
-        """The variant of this model that the parameter set `p` belongs to."""
+        """The variant of this model that a parameter set belongs to.
+
+        p: from `parameters`. Raises UserError if its choices are not this model's.
+        """
         picks = getattr(type(p), "picks", self.picks)
         return self if picks == self.picks else self.variant(**picks)
 
     def prepared(self, p: Any) -> Any:
-        """What `f`, `sample` and `pdf` get for the parameter set `p`."""
+        """What `f`, `sample` and `pdf` get for a parameter set.
+
+        p: from `parameters`, of one channel. Raises what the model's own `prepare` raises.
+        """
         return self.prepare(p) if self.prepare else p
 
     def _checked(self, name: str, value: Any) -> Any:

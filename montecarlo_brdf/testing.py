@@ -6,28 +6,50 @@
         assert_conserves_energy(my_module, p={"alpha": 0.2})
 
 A BRDF is given as a model, a built-in name, a path, a function f(wo, wi, p), or anything with an
-attribute f: a module, a class. `p` is a parameter set: a dictionary, a NamedTuple, or None for the
-defaults, around which the worst-case searches then look at the whole ranges. The other options are
-those of `verify.run`; every assertion returns its report. An undecided claim is no proof and raises
-too, unless inconclusive="pass".
+attribute f: a module, a class. An undecided claim is no proof and raises too, unless
+inconclusive="pass".
 """
 from __future__ import annotations
 
 import dataclasses
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.judge.finding import Policy, Report, Verdict
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.model_file import build
 from montecarlo_brdf.report.sentences import case, failures
+from montecarlo_brdf.verify.results import INTERRUPTED
 from montecarlo_brdf.verify.run import run
 from montecarlo_brdf.verify.supervision import Deadline
+
+Parameters = Mapping[str, Any] | tuple[Any, ...] | None
+
+class Terms(TypedDict, total=False):
+    """The options of `verify.run` besides model, parameters, checks and deadline."""
+
+    theta_o_deg: Sequence[float]
+    phi_o_deg: float
+    fixed: Iterable[str]
+    against: Model | None
+    points: str
+    samples: int
+    seed: int
+    threads: int | None
+    tolerance: float | None
+
+
+class Options(Terms, total=False):
+    """Those of `assert_checks`."""
+
+    inconclusive: str
+    max_time: float
+
 
 __all__ = [
     "assert_checks",
@@ -39,23 +61,52 @@ __all__ = [
 ]
 
 
-def assert_conserves_energy(brdf: Any, p: Any = None, **options: Any) -> Report:
-    """Nowhere is more reflected than received, in either direction."""
+def assert_conserves_energy(
+    brdf: object, p: Parameters = None, **options: Unpack[Options]
+) -> Report:
+    """Nowhere is more reflected than received, in either direction.
+
+    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
+    around which searches for the worst case look at the whole ranges. options: those of
+    `assert_checks`.
+
+    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
+    UserError for a bad value, ModelError if the BRDF does not run.
+    """
     __tracebackhide__ = True
     return assert_checks(brdf, p, ("energy",), **options)
 
 
-def assert_reciprocal(brdf: Any, p: Any = None, **options: Any) -> Report:
-    """f(wo, wi) = f(wi, wo)."""
+def assert_reciprocal(brdf: object, p: Parameters = None, **options: Unpack[Options]) -> Report:
+    """f(wo, wi) = f(wi, wo).
+
+    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
+    around which searches for the worst case look at the whole ranges. options: those of
+    `assert_checks`.
+
+    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
+    UserError for a bad value, ModelError if the BRDF does not run.
+    """
     __tracebackhide__ = True
     return assert_checks(brdf, p, ("reciprocity",), **options)
 
 
 def assert_furnace(
-    brdf: Any, p: Any = None, expected: float | Callable[..., float] | None = None, **options: Any
+    brdf: object,
+    p: Parameters = None,
+    expected: float | Callable[..., float] | None = None,
+    **options: Unpack[Options],
 ) -> Report:
-    """The albedo is at most 1 and what it should be: `expected`, a number or a function of
-    (cos_theta_o, p), or else the model's own reference."""
+    """The albedo is at most 1 and what it should be.
+
+    expected: a number, or a function of (cos_theta_o, p); None for the model's own reference.
+    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
+    around which searches for the worst case look at the whole ranges. options: those of
+    `assert_checks`.
+
+    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
+    UserError for a bad value, ModelError if the BRDF does not run.
+    """
     __tracebackhide__ = True
     model = as_model(brdf, p)
     if expected is not None:
@@ -64,8 +115,18 @@ def assert_furnace(
     return assert_checks(model, p, ("furnace",), **options)
 
 
-def assert_samples_match_pdf(brdf: Any, p: Any = None, **options: Any) -> Report:
-    """Drawn directions follow pdf, which integrates to 1 less what is rejected."""
+def assert_samples_match_pdf(
+    brdf: object, p: Parameters = None, **options: Unpack[Options]
+) -> Report:
+    """Drawn directions follow pdf, which integrates to 1 less what is rejected.
+
+    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
+    around which searches for the worst case look at the whole ranges. options: those of
+    `assert_checks`.
+
+    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
+    UserError for a bad value, ModelError if the BRDF does not run.
+    """
     __tracebackhide__ = True
     model = as_model(brdf, p)
     if model.sample is None or model.pdf is None:
@@ -73,44 +134,67 @@ def assert_samples_match_pdf(brdf: Any, p: Any = None, **options: Any) -> Report
     return assert_checks(model, p, ("pdf", "sampling"), **options)
 
 
-def assert_converges(brdf: Any, p: Any = None, **options: Any) -> Report:
-    """The error of every estimator falls with the number of samples as its point set promises;
-    options are those of `verify.converge`, and inconclusive."""
+def assert_converges(
+    brdf: object, p: Parameters = None, *, inconclusive: str = Policy.FAIL, **options: Any
+) -> Report:
+    """The error of every estimator falls with the number of samples as its point set promises.
+
+    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults.
+    inconclusive: "fail" or "pass", what an undecided claim is. options: those of `verify.converge`.
+
+    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
+    UserError for a bad value, ModelError if the BRDF does not run.
+    """
     from montecarlo_brdf.verify.converge import converge
 
     __tracebackhide__ = True
     model = as_model(brdf, p)
-    inconclusive = options.pop("inconclusive", "fail")
     report = converge(model, parameters_of(model, p), **options)
     require(report, inconclusive, reproducible=_loadable(model))
     return report
 
 
 def assert_checks(
-    brdf: Any,
-    p: Any = None,
+    brdf: object,
+    p: Parameters = None,
     checks: tuple[str, ...] | None = None,
     *,
-    inconclusive: str = "fail",
+    inconclusive: str = Policy.FAIL,
     max_time: float = math.inf,
-    **options: Any,
+    **options: Unpack[Terms],
 ) -> Report:
-    """Several checks at once, or all of them."""
+    """Several checks at once, or all of them.
+
+    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
+    around which searches for the worst case look at the whole ranges. checks: names, None for all.
+    inconclusive: "fail" or "pass", what an undecided claim is. max_time: seconds after which no
+    claim is begun. options: those of `verify.run`.
+
+    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
+    UserError for a bad value, ModelError if the BRDF does not run.
+    """
     __tracebackhide__ = True
     model = as_model(brdf, p)
     given = parameters_of(model, p)
-    deadline = Deadline(max_time)
-    report = run(model, given, names=checks, deadline=deadline, **options)
-    if report.measured["interrupted"]:
+    report = run(model, given, names=checks, deadline=Deadline(max_time), **options)
+    if report.measured[INTERRUPTED]:
         raise KeyboardInterrupt
     require(report, inconclusive, reproducible=_loadable(model))
     return report
 
 
-def require(report: Report, inconclusive: str = "fail", reproducible: bool = True) -> None:
-    """Raise AssertionError unless every claim of a report held."""
+def require(
+    report: Report, inconclusive: str = Policy.FAIL, reproducible: bool = True
+) -> None:
+    """Every claim of a report held.
+
+    report: of any question. inconclusive: "fail" or "pass", what an undecided claim is.
+    reproducible: whether a command line can name the model. Raises AssertionError with all claims
+    that did not hold.
+    """
     __tracebackhide__ = True
-    bad = ("error", "fail") if inconclusive == "pass" else ("error", "fail", "inconclusive")
+    bad = {Verdict.ERROR, Verdict.FAIL}
+    bad |= set() if Policy(inconclusive) == Policy.PASS else {Verdict.INCONCLUSIVE}
     lines = failures(report, bad, reproducible)
     if lines:
         cases = ", ".join(dict.fromkeys(case(r) for r in report.results))
@@ -122,8 +206,12 @@ def _loadable(model: Model) -> bool:
     return model.built_in or bool(model.terms) or ".py" in model.name
 
 
-def as_model(brdf: Any, p: Any = None) -> Model:
-    """The model that something stands for."""
+def as_model(brdf: object, p: Parameters = None) -> Model:
+    """The model that something stands for.
+
+    brdf: as above. p: the parameter set that is meant; of a function without Params its type is
+    taken. Raises UserError for anything that is no BRDF, ModelError if a file does not load.
+    """
     if isinstance(brdf, Model):
         return brdf
     if isinstance(brdf, (str, os.PathLike)):
@@ -140,8 +228,12 @@ def as_model(brdf: Any, p: Any = None) -> Model:
     return build(getattr(brdf, "__name__", type(brdf).__name__), namespace, {}, built_in=False)
 
 
-def parameters_of(model: Model, p: Any) -> Any:
-    """A parameter set, checked, or None."""
+def parameters_of(model: Model, p: Parameters) -> Any:
+    """A parameter set, checked, or None.
+
+    model: whose. p: by name, as a dictionary or a NamedTuple. Raises UserError for a bad value.
+    """
     if p is None:
         return None
-    return model.parameters(**(p if isinstance(p, Mapping) else p._asdict()))
+    named = p if isinstance(p, Mapping) else p._asdict()  # type: ignore[attr-defined]
+    return model.parameters(**named)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Whole
+from montecarlo_brdf.cli._values import Value, Whole
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -158,7 +158,7 @@ def _from_model(spec: str, sky: str, assignments: Sequence[str]) -> Page:
     return scenes, columns
 
 
-def _columns(listed: dict[str, list[Any]]) -> int:
+def _columns(listed: Mapping[str, Sequence[object]]) -> int:
     """Spheres in a row; complains if there are too many."""
     counts = [len(values) for values in listed.values()]
     total = math.prod(counts)
@@ -168,7 +168,7 @@ def _columns(listed: dict[str, list[Any]]) -> int:
     return varied[-1] if varied else 1
 
 
-def _label(spec: str, assignments: Sequence[str], model: Model, p: Any) -> str:
+def _label(spec: str, assignments: Sequence[str], model: Model, p: NamedTuple) -> str:
     """The model, and the parameters and choices that were given."""
     from montecarlo_brdf.verify.results import shown_parameters
 
@@ -178,7 +178,7 @@ def _label(spec: str, assignments: Sequence[str], model: Model, p: Any) -> str:
     return "\n".join([spec, ", ".join(rows)]) if rows else spec
 
 
-def _shown(value: Any) -> str:
+def _shown(value: Value) -> str:
     if isinstance(value, tuple):
         return "/".join(map(_shown, value))
     return value if isinstance(value, str) else f"{value:.3g}"
@@ -189,7 +189,7 @@ def _from_file(path: Path, assignments: Sequence[str]) -> Page:
     from montecarlo_brdf.cli._values import values_of
     from montecarlo_brdf.scene.read import read_scene
 
-    listed: dict[str, list[Any]] = {}
+    listed: dict[str, list[Value]] = {}
     for assignment in assignments:
         name, equals, text = (t.strip() for t in assignment.partition("="))
         if not equals or not text or name in listed:
@@ -204,6 +204,6 @@ def _from_file(path: Path, assignments: Sequence[str]) -> Page:
     return scenes, columns
 
 
-def _typed(value: Any) -> str:
+def _typed(value: Value) -> str:
     """A value as it was typed, a number of a range in three digits."""
     return "/".join(value) if isinstance(value, tuple) else _shown(value)

@@ -32,14 +32,19 @@ def directional_albedo(
     target_error: float | None = None,
     method: str | None = None,
 ) -> Any:
-    """Directional albedo A(wo) = int f cos(theta_i) dwi, with its error bar.
+    """Directional albedo A(wo) = int f cos(theta_i) dwi, a number, with its error bar.
 
-    theta_o_deg, phi_o_deg: direction of the viewer in degrees, theta in [0, 90).
+    model: from `load`. p: a parameter set of `model.parameters`, or a list of them. theta_o_deg,
+    phi_o_deg: the viewer's polar angle in [0, 90), or a list of them, and azimuth, in degrees.
     sampler: "uniform", "cosine", "own" or a chart that fits the model ("half_vector", "mirror",
-    "panels"); points: "independent", "stratified", "sobol" or "lattice"; samples: the total over
-    all replicates. target_error: take as many samples as needed until the 99 % half-width is below
-    this relative error, and choose sampler and points (method "auto", told in the estimate's
-    `method`; "given" keeps sampler and points). method "auto" alone chooses for `samples`.
+    "panels"). points: "independent", "stratified", "sobol" or "lattice".
+    samples: the total over all replicates, 1 to 2^40. seed: 0 to 2^64 - 1. replicates: independent
+    randomisations, whose spread is the error bar. threads: no result depends on their number.
+    target_error: take as many samples as needed until the 99 % half-width is below this relative
+    error, and choose sampler and points. method: "auto" chooses sampler and points, for `samples`
+    without a target, and tells so in the estimate's `method`; "given" keeps those given; None for
+    "auto" with a target.
+
     Returns an Estimate; a list of one per channel for a colour; for a list of angles or of
     parameter sets a list of that. Raises UserError for a bad value, ModelError if the model does
     not compile or raises.
@@ -79,8 +84,15 @@ def reverse_albedo(
 ) -> Any:
     """Reverse albedo R(wi) = int f cos(theta_o) dwo: all the light that leaves, for light from wi.
 
-    This is what energy conservation bounds by 1; it equals A only if f is reciprocal. Arguments and
-    result as for `directional_albedo`.
+    This is what energy conservation bounds by 1; it equals A only if f is reciprocal. model: from
+    `load`. p: a parameter set of `model.parameters`. theta_i_deg, phi_i_deg: the light's polar
+    angle in [0, 90) and azimuth, in degrees. sampler: "uniform", "cosine", "own" or a chart that
+    fits the model. points: "independent", "stratified", "sobol" or "lattice".
+    samples: the total over all replicates, 1 to 2^40. seed: 0 to 2^64 - 1. replicates: independent
+    randomisations, whose spread is the error bar. threads: no result depends on their number.
+
+    Returns an Estimate; a list of one per channel for a colour. Raises UserError for a bad value,
+    ModelError if the model does not compile or raises.
     """
     check_subject(model, p)
     plan = Plan(points, samples, replicates, seed, threads)
@@ -99,7 +111,16 @@ def bihemispherical_albedo(
     replicates: int = REPLICATES,
     threads: int = 1,
 ) -> Any:
-    """Radiosity over irradiance under uniform light, 2 int A(mu) mu dmu, between 0 and 1."""
+    """Radiosity over irradiance under uniform light, 2 int A(mu) mu dmu, between 0 and 1.
+
+    model: from `load`. p: a parameter set of `model.parameters`. sampler: "uniform", "cosine",
+    "own" or a chart that fits the model. points: "independent", "stratified", "sobol" or "lattice".
+    samples: the total over all replicates, 1 to 2^40. seed: 0 to 2^64 - 1. replicates: independent
+    randomisations, whose spread is the error bar. threads: no result depends on their number.
+
+    Returns an Estimate; a list of one per channel for a colour. Raises UserError for a bad value,
+    ModelError if the model does not compile or raises.
+    """
     check_subject(model, p)
     plan = Plan(points, samples, replicates, seed, threads)
     return _one(model, p, "bihemispherical", (0.0, 0.0, 1.0), sampler, plan)
@@ -118,8 +139,14 @@ def _one(model: Model, p: Any, quantity: str, fixed: Vec, sampler: str, plan: Pl
 def hemisphere_integral(
     function: Any, p: Any = NoParams(), *, sampler: str = "uniform", plan: Plan = Plan()
 ) -> Estimate:
-    """The integral of function(w, p) over the hemisphere, per solid angle, by uniform or cosine
-    sampling."""
+    """The integral of a function over the hemisphere, per solid angle.
+
+    function: of a unit vector w and p; numba must be able to compile it. p: what it gets, a
+    NamedTuple of numbers. sampler: "uniform" or "cosine". plan: how many points of which set.
+
+    Returns an Estimate in the function's unit times sr. Raises UserError for another sampler,
+    ModelError if the function does not compile or raises.
+    """
     if sampler not in SAMPLERS[:2]:
         raise UserError(unknown("sampler", sampler, SAMPLERS[:2]))
     subject = Subject((function.__qualname__, *map(repr, p)), {"F": function}, [p])

@@ -21,9 +21,11 @@ Colour = float | tuple[float, ...]
 
 
 def read_scene(path: str | Path, **parameters: Any) -> Scene:
-    """The scene in a file; `parameters` replace those of its surface model.
+    """The scene in a file.
 
-    Raises UserError with the line and what is allowed for anything wrong in it.
+    path: of a TOML file (docs/scenes.md). parameters: values that replace those of its surface
+    model, by name; a tuple makes a colour. Raises UserError with the line and what is allowed for
+    anything wrong in it.
     """
     file = Path(path)
     data, text = parse(file)

@@ -43,10 +43,13 @@ def render(
     camera: Vec | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Sphere:
-    """The sphere of a scene, `samples` per pixel where pixels are sampled.
+    """The picture of a sphere in a scene.
 
-    camera: unit vector towards the viewer; the scene's own by default.
+    scene: from `read_scene` or `scene_of`. size: pixels across. samples: per pixel, where pixels
+    are sampled. seed: 0 to 2^64 - 1. threads: no result depends on their number. camera: unit
+    vector towards the viewer, None for the scene's own. progress: is called with the fraction done.
 
+    Returns a Sphere; its values have the shape (size, size, channels), in the unit of the lights.
     Raises UserError for a sky with negative radiance below the horizon, which a flat surface does
     not see; ModelError if a model fails.
     """

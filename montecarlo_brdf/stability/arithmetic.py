@@ -5,14 +5,17 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.stability.exact_functions import exact_functions
 
 DIGITS = 50
+#: numbers of the type under test
+Array = NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +35,7 @@ class Arithmetic:
     def __repr__(self) -> str:
         return self.name
 
-    def array(self, values: Any) -> Any:
+    def array(self, values: ArrayLike) -> Array:
         """Numbers rounded to this type."""
         values = np.asarray(values)
         if values.dtype == self.dtype:
@@ -51,7 +54,9 @@ class Arithmetic:
         return self.functions.get(name) or getattr(np, name)
 
 
-def _float(name: str, tolerance: float, dtype: Any = None, info: Any = None) -> Arithmetic:
+def _float(
+    name: str, tolerance: float, dtype: DTypeLike | None = None, info: Any = None
+) -> Arithmetic:
     dtype = np.dtype(dtype or name)
     info = info or np.finfo(dtype)
     eps, tiny = float(info.eps), float(info.tiny)
@@ -108,7 +113,7 @@ def exact() -> Arithmetic:
     context.dps = DIGITS
     eps = float(context.eps)
 
-    def convert(x: Any) -> Any:
+    def convert(x: SupportsFloat) -> Any:
         return x if isinstance(x, context.mpf) else _exactly(context, x)
 
     dtype, most = np.dtype(object), float("inf")
@@ -116,7 +121,7 @@ def exact() -> Arithmetic:
     return Arithmetic("exact", dtype, eps, 0.0, 0.0, most, eps, functions, convert)
 
 
-def _exactly(context: Any, x: Any) -> Any:
+def _exactly(context: Any, x: SupportsFloat) -> Any:
     """x without rounding, also a long double, which is a sum of two doubles."""
     high = float(x)
     if not isinstance(x, np.longdouble) or not np.isfinite(x):

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.stability.arithmetic import Arithmetic
+from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
 
 MOST_PARTS = 20_000
 LOWEST_INTEGER = -(1 << 63)  # what a processor gives for the integer of NaN
@@ -22,7 +22,7 @@ LOWEST_INTEGER = -(1 << 63)  # what a processor gives for the integer of NaN
 class Mixed(Exception):  # noqa: N818  a question with several answers, not an error
     """The points do not agree on a condition."""
 
-    def __init__(self, answers: Any) -> None:
+    def __init__(self, answers: Array) -> None:
         super().__init__()
         self.answers = answers
 
@@ -31,7 +31,7 @@ class Widened(TypeError):
     """A result was of another type than its operands."""
 
 
-def agreed(answers: Any) -> Any:
+def agreed(answers: Array) -> Any:
     """The answer all points agree on; otherwise Mixed."""
     answers = np.asarray(answers)
     first = answers.flat[0]
@@ -46,11 +46,11 @@ class Batch:
     __slots__ = ("values", "arithmetic")
     __hash__ = None  # type: ignore[assignment]
 
-    def __init__(self, values: Any, arithmetic: Arithmetic) -> None:
-        self.values = values
+    def __init__(self, values: Array | None, arithmetic: Arithmetic) -> None:
+        self.values: Any = values  # None: only the type
         self.arithmetic = arithmetic
 
-    def apply(self, name: str, *operands: Any) -> Any:
+    def apply(self, name: str, *operands: object) -> Any:
         """The operation `name` of this type; conditions come back as a Mask."""
         result = np.asarray(self.arithmetic.function(name)(*map(self._operand, operands)))
         if result.dtype == self.arithmetic.dtype:
@@ -59,7 +59,7 @@ class Batch:
             return Mask(result)
         raise Widened(f"{name} of {self.arithmetic} gave {result.dtype}")
 
-    def _operand(self, other: Any) -> Any:
+    def _operand(self, other: object) -> Any:
         if isinstance(other, Batch):
             if other.arithmetic is not self.arithmetic:
                 raise Widened(f"{self.arithmetic} meets {other.arithmetic}")
@@ -72,9 +72,11 @@ class Batch:
             raise Widened(f"{self.arithmetic} meets an array of {other.dtype}")
         if isinstance(other, Whole):
             other = other.values
-        return self.arithmetic.array(other)
+        return self.arithmetic.array(other)  # type: ignore[arg-type]
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *operands: Any, **options: Any) -> Any:
+    def __array_ufunc__(
+        self, ufunc: np.ufunc, method: str, *operands: object, **options: object
+    ) -> Any:
         return self.apply(ufunc.__name__, *operands) if method == "__call__" else NotImplemented
 
     def __int__(self) -> int:
@@ -102,7 +104,7 @@ def _define(cls: type, method: str, name: str, reverse: bool = False, unary: boo
     def one(self: Any) -> Any:
         return self.apply(name, self)
 
-    def two(self: Any, other: Any) -> Any:
+    def two(self: Any, other: object) -> Any:
         return self.apply(name, other, self) if reverse else self.apply(name, self, other)
 
     setattr(cls, f"__{method}__", one if unary else two)
@@ -127,16 +129,16 @@ class Mask:
 
     __slots__ = ("values",)
 
-    def __init__(self, values: Any) -> None:
+    def __init__(self, values: Array) -> None:
         self.values = values
 
     def __bool__(self) -> bool:
         return bool(agreed(self.values))
 
-    def __and__(self, other: Any) -> Mask:
+    def __and__(self, other: object) -> Mask:
         return Mask(self.values & getattr(other, "values", other))
 
-    def __or__(self, other: Any) -> Mask:
+    def __or__(self, other: object) -> Mask:
         return Mask(self.values | getattr(other, "values", other))
 
     def __invert__(self) -> Mask:
@@ -149,11 +151,11 @@ class Whole:
     __slots__ = ("values", "arithmetic")
     __hash__ = None  # type: ignore[assignment]
 
-    def __init__(self, values: Any, arithmetic: Arithmetic) -> None:
+    def __init__(self, values: Array, arithmetic: Arithmetic) -> None:
         self.values = values
         self.arithmetic = arithmetic
 
-    def apply(self, name: str, *operands: Any) -> Any:
+    def apply(self, name: str, *operands: object) -> Any:
         """Integer arithmetic with integers; with floats the double that a kernel would make."""
         if any(isinstance(o, Batch | float) for o in operands):
             return Batch(None, self.arithmetic).apply(name, *operands)

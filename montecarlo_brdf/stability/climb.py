@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
 from montecarlo_brdf.stability.designed import Points
 from montecarlo_brdf.stability.errors import Errors, errors
 from montecarlo_brdf.stability.ladder import Rung
@@ -18,14 +19,14 @@ class Found(NamedTuple):
 
     wo: Any
     wi: Any
-    p: Any
+    p: NamedTuple
     value: float
     truth: float
     total: float
     own: float
 
 
-def at(points: Any, p: Any, found: Errors, i: int) -> Found:
+def at(points: Points, p: NamedTuple, found: Errors, i: int) -> Found:
     """Point i of an evaluation."""
     numbers = (
         float(found.value[i]),
@@ -36,7 +37,9 @@ def at(points: Any, p: Any, found: Errors, i: int) -> Found:
     return Found(points.wo[i], points.wi[i], p, *numbers)
 
 
-def climb(narrow: Rung, wide: Rung, start: Found, peers: Any, rounds: int, rng: Any) -> Found:
+def climb(
+    narrow: Rung, wide: Rung, start: Found, peers: Array, rounds: int, rng: np.random.Generator
+) -> Found:
     """The worst of `rounds` rounds of neighbours, each around the worst so far.
 
     peers: the designed partners of start.wo, which say how large f gets: the neighbours keep wo and
@@ -54,7 +57,7 @@ def climb(narrow: Rung, wide: Rung, start: Found, peers: Any, rounds: int, rng: 
     return best
 
 
-def _neighbours(w: Any, arithmetic: Any, rng: Any) -> Any:
+def _neighbours(w: Array, arithmetic: Arithmetic, rng: np.random.Generator) -> Any:
     """Unit vectors around w, at distances from one rounding to a tenth, above the horizon."""
     size = 10.0 ** rng.uniform(np.log10(arithmetic.eps), -1.0, (NEIGHBOURS, 1))
     near = w.astype(np.float64) + size * rng.standard_normal((NEIGHBOURS, 3))

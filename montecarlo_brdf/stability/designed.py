@@ -15,24 +15,25 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.stability.arithmetic import Arithmetic
+from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
 
 #: Polar angles in degrees that are nothing special, for both directions.
 ANGLES = (15.0, 37.0, 45.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99)
 #: Half vectors at these multiples of the lobe's width from the normal.
 WIDTHS = (0.01, 0.1, 0.3, 1.0, 2.0, 4.0, 8.0, 30.0)
 AZIMUTHS = 6
+Grid = list[tuple[float, float]]  # (sine, cosine) of polar angles
 
 
 class Points(NamedTuple):
     """Pairs of directions in one precision; `group` numbers the wo that a pair belongs to."""
 
-    wo: Any
+    wo: Array
     wi: Any
-    group: Any
+    group: Array
 
 
-def polar(arithmetic: Arithmetic, quick: bool) -> list[tuple[float, float]]:
+def polar(arithmetic: Arithmetic, quick: bool) -> Grid:
     """(sine, cosine) of polar angles from the normal to the last number above the horizon."""
     e = arithmetic.eps
     angles = ANGLES[::2] if quick else ANGLES
@@ -60,7 +61,7 @@ def _at(s: float, c: float, phi: float) -> tuple[float, float, float]:
     return s * math.cos(phi), s * math.sin(phi), c
 
 
-def _partners(arithmetic: Arithmetic, wo: Any, grid: Any, width: float) -> Any:
+def _partners(arithmetic: Arithmetic, wo: Array, grid: Grid, width: float) -> Any:
     """Directions wi that may be trouble for this wo, all above the horizon."""
     double = wo.astype(np.float64)
     phi = math.atan2(double[1], double[0])
@@ -71,14 +72,14 @@ def _partners(arithmetic: Arithmetic, wo: Any, grid: Any, width: float) -> Any:
     return made[made[:, 2] > 0]
 
 
-def _around(grid: Any, phi: float, eps: float) -> Iterator[tuple[float, float, float]]:
+def _around(grid: Grid, phi: float, eps: float) -> Iterator[tuple[float, float, float]]:
     """The polar grid at azimuths in the plane, across it, nearly so, and about a full turn."""
     turns = (0.0, eps, 0.5, math.pi / 2, 2.0, math.pi - 1e-3, math.pi, 2 * math.pi * (1 - eps))
     for (s, c), turn in itertools.product(grid, turns):
         yield _at(s, c, phi + turn)
 
 
-def _reflections(wo: Any, width: float) -> Iterator[Any]:
+def _reflections(wo: Array, width: float) -> Iterator[Any]:
     """wo reflected by facets at multiples of the lobe's width."""
     for k, j in itertools.product(WIDTHS, range(AZIMUTHS)):
         turn = 2.0 * math.pi * (j + 0.1) / AZIMUTHS
@@ -87,7 +88,7 @@ def _reflections(wo: Any, width: float) -> Iterator[Any]:
         yield 2.0 * (wo @ h) * h - wo
 
 
-def _exact(arithmetic: Arithmetic, wo: Any) -> Iterator[Any]:
+def _exact(arithmetic: Arithmetic, wo: Array) -> Iterator[Any]:
     """The mirror of wo, wo itself, across, the normal; each one rounding away, longer, shorter."""
     one = arithmetic.array(1.0)
     zero = arithmetic.array(0.0)
@@ -106,7 +107,7 @@ def _exact(arithmetic: Arithmetic, wo: Any) -> Iterator[Any]:
         yield least
 
 
-def width_of(model: Model, p: Any) -> float:
+def width_of(model: Model, p: NamedTuple) -> float:
     """Width of the model's lobe as it declares it, or a width that is nothing special."""
     return float(model.lobe[1](p)) if model.lobe else 0.3
 

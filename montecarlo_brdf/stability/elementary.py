@@ -34,7 +34,7 @@ def twins(arithmetic: Arithmetic) -> dict[Any, Any]:
     """What stands for the functions of `math`, `numpy`, `special` and `bits` in a type."""
 
     def twin(name: str) -> Callable[..., Any]:
-        def function(*operands: Any) -> Any:
+        def function(*operands: object) -> Any:
             batch = next((o for o in operands if isinstance(o, Batch)), None)
             if batch is None:
                 batch = Batch(None, arithmetic)  # constants, rounded like everything else
@@ -90,20 +90,20 @@ class Rebound(Specialiser):
 def _words(arithmetic: Arithmetic) -> dict[Any, Any]:
     """Doubles as words and back, on arrays."""
 
-    def word_of(x: Any) -> Any:
+    def word_of(x: object) -> Any:
         values = np.asarray(x.values if isinstance(x, Batch) else x, dtype=np.float64)
         return Whole(values.view(np.int64), arithmetic)
 
-    def double_of(word: Any) -> Any:
+    def double_of(word: object) -> Any:
         return Batch(np.asarray(getattr(word, "values", word)).view(np.float64), arithmetic)
 
-    def number_of(word: Any) -> Any:
+    def number_of(word: object) -> Any:
         return Batch(np.asarray(getattr(word, "values", word), dtype=np.float64), arithmetic)
 
     return {bits.word_of: word_of, bits.double_of: double_of, bits.number_of: number_of}
 
 
-def _stand_ins(m: Any) -> dict[Any, Any]:
+def _stand_ins(m: types.SimpleNamespace) -> dict[Any, Any]:
     """What stands for each polynomial of `special`."""
 
     def cosine_power(d: Any, n: Any) -> Any:

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from montecarlo_brdf.stability.arithmetic import Arithmetic
+from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
+from montecarlo_brdf.stability.designed import Points
 from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 
 #: Darker than this, per steradian, nobody sees the error (f0 = 0 leaves (1 - h.v)^5 = 1e-40).
@@ -18,15 +19,15 @@ UNDETERMINED = 0.25
 class Errors(NamedTuple):
     """Per point: the value, the truth, the relative errors, and what happened to the number."""
 
-    value: Any
-    truth: Any
-    total: Any  # |value - truth|/|truth| beyond eps times the largest |f| of the same wo
-    own: Any  # the same beyond what one rounding of the inputs does to the truth
-    kinds: dict[str, Any]  # "nan", "inf", "negative", "flushed": conditions per point
-    low: Any  # directions lower than any angle of the type
+    value: Array
+    truth: Array
+    total: Array  # |value - truth|/|truth| beyond eps times the largest |f| of the same wo
+    own: Array  # the same beyond what one rounding of the inputs does to the truth
+    kinds: dict[str, Array]  # "nan", "inf", "negative", "flushed": conditions per point
+    low: Array  # directions lower than any angle of the type
 
 
-def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
+def errors(narrow: Rung, wide: Rung, points: Points, p: NamedTuple) -> Errors:
     """Errors of f at points and parameters of the narrow type; truth at renormalised directions."""
     type_, truth_type = narrow.arithmetic, wide.arithmetic
     value = narrow.f(points.wo, points.wi, p)
@@ -36,10 +37,10 @@ def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
     truth, raw = _together(wide, [(wo, wi), given], q)
     unscaled = _finite_distance(raw, truth, truth_type)
 
-    def judge(conditioning: Any) -> Errors:
+    def judge(conditioning: Array) -> Errors:
         return judged(value, truth, conditioning, points, type_, truth_type)
 
-    def moved(at: Any, eps: float) -> Any:
+    def moved(at: Array, eps: float) -> Any:
         turned = _together(wide, _moves(wo[at], wi[at], eps, truth_type), q)
         return _conditioning(turned, truth[at], truth_type)
 
@@ -61,7 +62,7 @@ def errors(narrow: Rung, wide: Rung, points: Any, p: Any) -> Errors:
         return judge(step + unscaled)
 
 
-def lower_than_any_angle(points: Any, type_: Arithmetic) -> Any:
+def lower_than_any_angle(points: Points, type_: Arithmetic) -> Any:
     """Pairs with a cosine below eps/8: the smallest of any angle of the type is about eps/4.
 
     There products leave the range of normal numbers, and with it their digits: no error is judged.
@@ -70,10 +71,10 @@ def lower_than_any_angle(points: Any, type_: Arithmetic) -> Any:
 
 
 def judged(
-    value: Any,
-    truth: Any,
-    conditioning: Any,
-    points: Any,
+    value: Array,
+    truth: Array,
+    conditioning: Array,
+    points: Points,
     type_: Arithmetic,
     truth_type: Arithmetic,
 ) -> Errors:
@@ -106,20 +107,20 @@ def judged(
     )
 
 
-def _together(wide: Rung, pairs: list[Any], q: Any) -> Any:
+def _together(wide: Rung, pairs: list[Any], q: NamedTuple) -> Any:
     """f at lists of pairs of directions, a row each: all at once, since every call costs time."""
     wo, wi = (np.concatenate(w) for w in zip(*pairs, strict=True))
     return wide.f(wo, wi, q).reshape(len(pairs), -1)
 
 
-def _moves(wo: Any, wi: Any, eps: float, arithmetic: Arithmetic) -> list[Any]:
+def _moves(wo: Array, wi: Array, eps: float, arithmetic: Arithmetic) -> list[Any]:
     """Both directions moved by eps along each axis in turn, and renormalised."""
     steps = arithmetic.array(eps * np.eye(3))
     moved = [(unit(wo + step, arithmetic), wi) for step in steps]
     return [*moved, *((wo, unit(wi + step, arithmetic)) for step in steps)]
 
 
-def _conditioning(turned: Any, truth: Any, arithmetic: Arithmetic) -> Any:
+def _conditioning(turned: Array, truth: Array, arithmetic: Arithmetic) -> Any:
     """How far the true value moves when a direction is known to eps radians, as rounded ones are.
     What vectors that are not quite of unit length do to the formula is added by the caller.
 
@@ -129,31 +130,31 @@ def _conditioning(turned: Any, truth: Any, arithmetic: Arithmetic) -> Any:
     return sum(_finite_distance(f, truth, arithmetic) * arithmetic.array(0.5) for f in turned)
 
 
-def _finite_distance(a: Any, b: Any, arithmetic: Arithmetic) -> Any:
+def _finite_distance(a: Array, b: Array, arithmetic: Arithmetic) -> Any:
     """|a - b|, 0 where it is not finite."""
     with np.errstate(all="ignore"):
         step = np.abs(a - b)
     return np.where(_finite(step), step, arithmetic.array(0.0))
 
 
-def largest_of(size: Any, group: Any) -> Any:
+def largest_of(size: Array, group: Array) -> Any:
     """The largest size within each group, at every member of it."""
     starts = np.flatnonzero(np.r_[True, group[1:] != group[:-1]])
     tops = np.maximum.reduceat(size, starts)
     return np.repeat(tops, np.diff(np.r_[starts, len(group)]))
 
 
-def _double(x: Any) -> Any:
+def _double(x: Array) -> Any:
     return np.asarray(x).astype(np.float64)
 
 
-def _finite(x: Any) -> Any:
+def _finite(x: Array) -> Any:
     return np.isfinite(_double(x)) if x.dtype == object else np.isfinite(x)
 
 
-def _is_nan(x: Any) -> Any:
+def _is_nan(x: Array) -> Any:
     return np.isnan(_double(x) if x.dtype == object else x)
 
 
-def _is_inf(x: Any) -> Any:
+def _is_inf(x: Array) -> Any:
     return np.isinf(_double(x) if x.dtype == object else x)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 Function = Callable[..., Any]
 
@@ -83,8 +84,8 @@ def _real(context: Any, function: Function) -> Function:
     return value
 
 
-def _on_arrays(function: Function, dtype: Any) -> Function:
-    def applied(*operands: Any) -> Any:
+def _on_arrays(function: Function, dtype: type) -> Function:
+    def applied(*operands: ArrayLike) -> Any:
         ufunc = np.frompyfunc(function, len(operands), 1)
         return np.asarray(ufunc(*operands), dtype=dtype)
 

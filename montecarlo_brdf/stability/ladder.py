@@ -5,13 +5,14 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.stability.arithmetic import Arithmetic
+from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
 from montecarlo_brdf.stability.batch import Batch, Mixed, Widened, over_points
 from montecarlo_brdf.stability.elementary import Rebound
 
@@ -29,15 +30,15 @@ class Rung:
         self._special = Rebound(arithmetic)
         self._rebound: dict[str, Callable[..., Any]] = {}
 
-    def f(self, wo: Any, wi: Any, p: Any) -> Any:
+    def f(self, wo: Array, wi: Array, p: NamedTuple) -> Any:
         """f(wo, wi, p) per point."""
         return self._called("f", wo, wi, p)[0]
 
-    def pdf(self, wo: Any, wi: Any, p: Any) -> Any:
+    def pdf(self, wo: Array, wi: Array, p: NamedTuple) -> Any:
         """pdf(wo, wi, p) per point."""
         return self._called("pdf", wo, wi, p)[0]
 
-    def sample(self, wo: Any, u: Any, p: Any) -> Any:
+    def sample(self, wo: Array, u: Array, p: NamedTuple) -> Any:
         """Rows x, y, z (and weight) drawn for the numbers u (n, 3)."""
         return self._called("sample", wo, u, p)
 
@@ -48,14 +49,14 @@ class Rung:
             self._rebound[name] = self._special.clone(getattr(original, "py_func", original), {})
         return self._rebound[name]
 
-    def _called(self, name: str, a: Any, b: Any, p: Any) -> Any:
-        function, make = self.function(name), type(p)
+    def _called(self, name: str, a: Array, b: Array, p: NamedTuple) -> Any:
+        function = self.function(name)
         prepare = self._prepare(p)
         columns = [*self._columns(a), *self._columns(b)]
         columns += [self.arithmetic.array(v) for v in p] if callable(prepare) else []
 
         def call(*row: Batch) -> Any:
-            ready = prepare(make(*row[6:])) if callable(prepare) else prepare
+            ready = prepare(p._make(row[6:])) if callable(prepare) else prepare
             return function(row[:3], row[3:6], ready)
 
         try:
@@ -70,10 +71,10 @@ class Rung:
                 f"{name} of model {self.model.name} cannot run in {self.arithmetic}: {text}"
             ) from error
 
-    def _columns(self, vectors: Any) -> list[Any]:
+    def _columns(self, vectors: Array) -> list[Any]:
         return [self.arithmetic.array(column) for column in np.asarray(vectors).T]
 
-    def _prepare(self, p: Any) -> Any:
+    def _prepare(self, p: NamedTuple) -> Any:
         """What turns parameters into what the functions get: a function, or that itself.
 
         A `prepare` that only works on plain floats (tables, loops) runs in double, like the part of
@@ -83,20 +84,20 @@ class Rung:
             return lambda q: q
         prepare = self.function("prepare")
         try:
-            prepare(type(p)(*(Batch(self.arithmetic.array(v), self.arithmetic) for v in p)))
+            prepare(p._make(Batch(self.arithmetic.array(v), self.arithmetic) for v in p))
         except Mixed:
             return prepare
         except Exception:
-            return self._rounded(_in_double(self.model.prepare, type(p)(*(float(v) for v in p))))
+            return self._rounded(_in_double(self.model.prepare, p._make(float(v) for v in p)))
         return prepare
 
-    def _rounded(self, ready: Any) -> Any:
+    def _rounded(self, ready: NamedTuple) -> Any:
         """Doubles in a NamedTuple as numbers of this precision, tables as tables of them."""
-        return type(ready)(*(_in(self.arithmetic, v) for v in ready))
+        return ready._make(_in(self.arithmetic, v) for v in ready)
 
 
 @functools.lru_cache(maxsize=64)
-def _in_double(prepare: Callable[[Any], Any], p: Any) -> Any:
+def _in_double(prepare: Callable[[Any], Any], p: NamedTuple) -> Any:
     """prepare(p), which may take long, once for all precisions."""
     return prepare(p)
 
@@ -104,7 +105,7 @@ def _in_double(prepare: Callable[[Any], Any], p: Any) -> Any:
 class Table:
     """A read-only table whose entries are numbers of one precision."""
 
-    def __init__(self, values: Any, arithmetic: Arithmetic) -> None:
+    def __init__(self, values: Array, arithmetic: Arithmetic) -> None:
         self.values, self.arithmetic = values, arithmetic
         self.shape = np.shape(values)
 
@@ -116,28 +117,22 @@ class Table:
         return Table(found, self.arithmetic) if np.ndim(found) else Batch(found, self.arithmetic)
 
 
-def _in(arithmetic: Arithmetic, value: Any) -> Any:
+def _in(arithmetic: Arithmetic, value: ArrayLike) -> Any:
     if isinstance(value, int | float):
         return Batch(arithmetic.array(value), arithmetic)
     return Table(arithmetic.array(value), arithmetic)
 
 
-def rounded(p: Any, arithmetic: Arithmetic) -> Any:
+def rounded(p: NamedTuple, arithmetic: Arithmetic) -> Any:
     """A parameter set rounded to a precision, as long as it stays finite; else None."""
     values = [arithmetic.array(v) for v in p]
     if arithmetic.name != "exact" and not all(math.isfinite(float(v)) for v in values):
         return None
-    return type(p)(*values)
+    return p._make(values)
 
 
-def unit(w: Any, arithmetic: Arithmetic) -> Any:
+def unit(w: Array, arithmetic: Arithmetic) -> Any:
     """Directions (n, 3) of exactly unit length as nearly as the precision has it."""
     w = arithmetic.array(w)
     scale = arithmetic.function("sqrt")(w[:, 0] ** 2 + w[:, 1] ** 2 + w[:, 2] ** 2)
     return w / scale[:, None]
-
-
-def in_precision(function: Callable[..., Any], arithmetic: Arithmetic, *columns: Any) -> Any:
-    """Any function of numbers, applied to columns of numbers in a precision."""
-    columns = tuple(arithmetic.array(c) for c in columns)
-    return over_points(columns, Rebound(arithmetic).clone(function, {}), arithmetic)[0]

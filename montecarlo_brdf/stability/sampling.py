@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.stability import designed
-from montecarlo_brdf.stability.arithmetic import Arithmetic
+from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
 from montecarlo_brdf.stability.ladder import Rung, rounded
 
 #: A direction may be this many roundings longer or shorter than 1: two rotations' worth.
@@ -50,7 +50,7 @@ def draws(model: Model, sets: list[Any], arithmetic: Arithmetic) -> Draws | None
     return total
 
 
-def _one(rung: Rung, wo: Any, u: Any, p: Any) -> Draws:
+def _one(rung: Rung, wo: Array, u: Array, p: NamedTuple) -> Draws:
     w = rung.sample(wo, u, p)
     bad = ~np.isfinite(w[:3]).all(axis=0)
     kept = ~bad & (w[2] > 0)
@@ -77,7 +77,7 @@ def _one(rung: Rung, wo: Any, u: Any, p: Any) -> Draws:
     )
 
 
-def _weights(rung: Rung, wo: Any, w: Any, p: Any) -> tuple[Any, Any]:
+def _weights(rung: Rung, wo: Array, w: Array, p: NamedTuple) -> tuple[Any, Any]:
     """(f cos/pdf, pdf) of drawn directions; a sampler's own weight where it returns one."""
     wi = w[:3].T
     if rung.model.pdf is None:
@@ -88,7 +88,7 @@ def _weights(rung: Rung, wo: Any, w: Any, p: Any) -> tuple[Any, Any]:
     return rung.f(wo, wi, p).astype(np.float64) * wi[:, 2].astype(np.float64) / density, density
 
 
-def _place(wo: Any, u: Any, p: Any, i: int) -> dict[str, Any]:
+def _place(wo: Array, u: Array, p: NamedTuple, i: int) -> dict[str, Any]:
     vectors = {"wo": [float(x) for x in wo[i]], "u": [float(x) for x in u[i]]}
     return {**vectors, "p": {n: float(v) for n, v in zip(p._fields, p, strict=False)}}
 

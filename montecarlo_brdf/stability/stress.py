@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -73,7 +73,7 @@ def loss(
 
 
 def _one_set(
-    result: Loss, narrow: Rung, wide: Rung, p: Any, q: Any, quick: bool
+    result: Loss, narrow: Rung, wide: Rung, p: NamedTuple, q: NamedTuple, quick: bool
 ) -> list[tuple[climb.Found, Any]]:
     """Evaluate the designed set of one parameter set; its worst points, to climb from."""
     points = designed.directions(narrow.arithmetic, designed.width_of(narrow.model, p), quick)
@@ -95,7 +95,7 @@ def _one_set(
     return [(climb.at(points, q, found, worst[0]), peers)]
 
 
-def _count(result: Loss, points: Points, q: Any, found: Errors) -> None:
+def _count(result: Loss, points: Points, q: NamedTuple, found: Errors) -> None:
     for kind, here in found.kinds.items():
         result.counts[kind] += int((here & ~found.low).sum())
         result.counts_low[kind] += int((here & found.low).sum())
@@ -120,7 +120,9 @@ def _by_angle(points: Points, found: Errors, value: float) -> list[tuple[float, 
     return [(float(t), value, float(e)) for t, e in zip(theta, worst, strict=False)]
 
 
-def _against_exact(result: Loss, narrow: Rung, points: Points, q: Any, found: Errors) -> None:
+def _against_exact(
+    result: Loss, narrow: Rung, points: Points, q: NamedTuple, found: Errors
+) -> None:
     """The worst points and some others again, with 50 digits as truth."""
     order = np.argsort(found.own)[-EXACT_WORST:]
     chosen = np.unique(np.r_[order, np.arange(0, len(found.own), EXACT_EVERY)])

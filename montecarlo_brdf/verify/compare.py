@@ -4,7 +4,7 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import equality
@@ -70,7 +70,7 @@ def compare(
     return reported("compare", told, results, started)
 
 
-def claims(case: Case, other: Model, q: Any) -> Iterator[ExactClaim]:
+def claims(case: Case, other: Model, q: NamedTuple) -> Iterator[ExactClaim]:
     """Equal values, A and R, per channel."""
     pairs = list(zip(case.sets, channels(q), strict=False))
     for k, (one, two) in enumerate(pairs):

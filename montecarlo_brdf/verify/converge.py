@@ -32,6 +32,7 @@ from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.verify.results import (
     Progress,
     Question,
+    Sets,
     answered,
     chosen,
     parameter_sets,
@@ -62,7 +63,7 @@ TARGETS = (1e-3, 1e-6, 1e-9)
 
 def converge(
     model: Model,
-    p: Any = None,
+    p: Sets = None,
     theta_o_deg: float = 60.0,
     *,
     phi_o_deg: float = 0.0,

@@ -20,6 +20,7 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify.results import (
     Progress,
     Question,
+    Sets,
     answered,
     chosen,
     parameter_sets,
@@ -35,7 +36,7 @@ ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0)
 
 def furnace(
     model: Model,
-    p: Any = None,
+    p: Sets = None,
     theta_o_deg: Sequence[float] | float = ANGLES,
     *,
     phi_o_deg: float = 0.0,

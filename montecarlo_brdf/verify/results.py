@@ -20,6 +20,7 @@ from montecarlo_brdf.verify.supervision import Deadline, supervised
 INTERRUPTED = "interrupted"  # of what a report measured: whether it was
 PATIENCE = 20.0  # seconds for a few evaluations: sampling needs a million
 Progress = Callable[[float], None]  # gets the fraction done
+Sets = NamedTuple | list[Any] | None  # a parameter set, several, or the defaults
 Repeat = Callable[[Finding], str | None]  # the command line that gives a finding again
 
 
@@ -106,12 +107,12 @@ def part_of(progress: Progress | None, k: int, n: int) -> Progress | None:
     return (lambda done: progress((k + done) / n)) if progress else None
 
 
-def parameter_sets(model: Model, p: Any) -> list[Any]:
+def parameter_sets(model: Model, p: Sets) -> list[Any]:
     """The sets that a caller means by one, a list of them, or None for the defaults."""
     return list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
 
 
-def shown_parameters(model: Model, p: Any) -> dict[str, Any]:
+def shown_parameters(model: Model, p: NamedTuple) -> dict[str, Any]:
     """Parameters and choices by name, as reports print them."""
     return {**{model.labels.get(k, k): v for k, v in p._asdict().items()}, **model.picks}
 
@@ -132,7 +133,7 @@ def chosen(
     return names
 
 
-def probed(model: Model, p: Any) -> None:
+def probed(model: Model, p: NamedTuple) -> None:
     """A first look at the model, where it can be left; TooSlow if it does not return."""
     if not supervised(lambda: probe.check(model, p), Deadline(PATIENCE)):
         raise TooSlow(

@@ -10,7 +10,6 @@ import shlex
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case, searched
@@ -22,6 +21,7 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify.results import (
     Progress,
     Question,
+    Sets,
     chosen,
     judged,
     parameter_sets,
@@ -40,7 +40,7 @@ MOST = 4  # tasks at once: what they do between kernels shares one interpreter
 
 def run(
     model: Model,
-    p: Any = None,
+    p: Sets = None,
     *,
     names: Sequence[str] | None = None,
     theta_o_deg: Sequence[float] = ANGLES,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import Any
+from typing import NamedTuple
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Plan
@@ -24,7 +24,7 @@ UNASKED = "measured, not promised: --precision {} makes it a claim"
 
 def stress(
     models: Model | Sequence[Model],
-    p: Any = None,
+    p: Sequence[NamedTuple] | None = None,
     *,
     precisions: Sequence[str] | None = None,
     max_error: float | None = None,

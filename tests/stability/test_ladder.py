@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from in_precision import in_precision
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.model_file import build
 from montecarlo_brdf.stability import arithmetic, designed, ladder
-from montecarlo_brdf.stability.ladder import Rung, in_precision
+from montecarlo_brdf.stability.ladder import Rung
 
 SINGLE, DOUBLE, EXACT = (
     arithmetic.precision("float32"),

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from in_precision import in_precision
 
 from montecarlo_brdf.stability import arithmetic, ladder
 from montecarlo_brdf.stability.specimens import (
@@ -28,8 +29,8 @@ COSINES = np.cos(np.r_[0.0, np.geomspace(1e-5, math.pi / 2, 40_000)])
 def worst(function: Callable[..., Any], alpha: float) -> float:
     """Worst relative error of D(n.h, alpha) when n.h and all that follows is single precision."""
     a = np.full(len(COSINES), float(np.float32(alpha)))
-    single = ladder.in_precision(function, SINGLE, COSINES, a)
-    truth = ladder.in_precision(textbook(function), DOUBLE, COSINES, a)
+    single = in_precision(function, SINGLE, COSINES, a)
+    truth = in_precision(textbook(function), DOUBLE, COSINES, a)
     seen = truth > 1e-7 * truth.max()  # beyond that a rounding of the peak is larger
     return float(np.max(np.abs(single - truth)[seen] / truth[seen]))
 
@@ -98,9 +99,9 @@ def test_textbook_phong_multiplies_a_rounding_by_n(n: float) -> None:
 
 def test_textbook_eon_term() -> None:
     mu = np.geomspace(1e-5, 1.0, 400_000)[:-1].astype(np.float32)
-    truth = ladder.in_precision(textbook_eon.term_to_ship, DOUBLE, mu)
-    off = np.abs(ladder.in_precision(textbook_eon.term, SINGLE, mu) - truth)
-    stable = np.abs(ladder.in_precision(textbook_eon.term_to_ship, SINGLE, mu) - truth)
+    truth = in_precision(textbook_eon.term_to_ship, DOUBLE, mu)
+    off = np.abs(in_precision(textbook_eon.term, SINGLE, mu) - truth)
+    stable = np.abs(in_precision(textbook_eon.term_to_ship, SINGLE, mu) - truth)
     # s rounds down to 1 - 2^-24 where mu^2/2 passes 2^-25: mu = 2.4e-4 for nearest, 1.7e-4 once
     # 1 - mu^2 is rounded first; there 1 - s^3 = 3 * 2^-24 instead of 3 mu^2/2
     assert off.max() == pytest.approx(7.8e-4, rel=0.05)
@@ -113,7 +114,7 @@ def test_half_precision_ends_at_roughness_0_089() -> None:
     alpha = HALF.array(np.array([0.089, 0.088]) ** 2)
     kept = alpha * alpha >= HALF.tiny  # alpha^2 is a normal number
     assert kept.tolist() == [True, False]
-    peak = ladder.in_precision(textbook_ggx.density, HALF, np.ones(2), np.array([0.1, 0.05]) ** 2)
+    peak = in_precision(textbook_ggx.density, HALF, np.ones(2), np.array([0.1, 0.05]) ** 2)
     assert not np.isfinite(peak).any()  # the printed form is gone even before
 
 

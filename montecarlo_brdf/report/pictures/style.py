@@ -17,8 +17,9 @@ ORANGE, SKY, BLACK = "#E69F00", "#56B4E9", "#000000"
 GREY = "0.4"
 
 
+COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 #: a colour and a marker per parameter set
-SERIES = tuple(zip((BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK), "os^DvPX", strict=True))
+SERIES = tuple(zip(COLOURS, "os^DvPX", strict=True))
 #: one per point set
 POINTS = {
     "independent": (BLACK, "o"),
