@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Plan
