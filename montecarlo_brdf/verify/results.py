@@ -5,7 +5,7 @@ import os
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.errors import TooSlow, UserError, unknown
@@ -20,7 +20,7 @@ from montecarlo_brdf.verify.supervision import Deadline, supervised
 INTERRUPTED = "interrupted"  # of what a report measured: whether it was
 PATIENCE = 20.0  # seconds for a few evaluations: sampling needs a million
 Progress = Callable[[float], None]  # gets the fraction done
-Sets = NamedTuple | list[Any] | None  # a parameter set, several, or the defaults
+Sets: TypeAlias = "NamedTuple | list[Any] | None"  # one parameter set, several, the defaults
 Repeat = Callable[[Finding], str | None]  # the command line that gives a finding again
 
 
