@@ -14,6 +14,8 @@ from montecarlo_brdf import student
 
 #: No error bar is smaller than rounding: 4 units of the last place of the mean.
 FLOOR = 4.0 * 2.0**-52
+#: Characters of an estimate: 17 digits and what stands around them.
+LONGEST = 24
 #: Values that differ by less than this, relative to their mean, are one value and its rounding.
 SAME = 1e-12
 #: Draws that differ from the others by their own size, but are fewer than this in a sample, are too
@@ -73,17 +75,35 @@ class Estimate(NamedTuple):
 
 def with_error(value: float, error: float) -> str:
     """'0.68899(76)': the digits in brackets are the standard error of the last digits shown; just
-    the value where nothing is known about its error."""
+    the value where nothing is known about its error.
+
+    '0.8(0)': exact to rounding, as the error is at most `FLOOR`. '6.8899(76)e-30': what would be
+    longer than a column can hold.
+    """
     if math.isfinite(value) and math.isnan(error):
         return f"{value:.6g}"
     if not (math.isfinite(value) and math.isfinite(error)):
         return f"{value:.6g}({error})"
-    if error == 0.0:
+    if error <= FLOOR * abs(value):
         return f"{value:.15g}(0)"
+    text = _with_digits(value, error)
+    if len(text) <= LONGEST:
+        return text
+    power = int(f"{max(abs(value), error):e}".partition("e")[2])
+    return f"{_with_digits(_shifted(value, power), _shifted(error, power))}e{power:+03d}"
+
+
+def _with_digits(value: float, error: float) -> str:
     mantissa, exponent = f"{error:.1e}".split("e")
     places = max(0, 1 - int(exponent))
     shown = mantissa.replace(".", "") if places else f"{error:.0f}"
     return f"{value:.{places}f}({shown})"
+
+
+def _shifted(value: float, power: int) -> float:
+    """value/10^power, where either may be near the ends of the numbers."""
+    mantissa, exponent = f"{value:.16e}".split("e")
+    return float(f"{mantissa}e{int(exponent) - power}")
 
 
 def merged(parts: Sequence[Moments]) -> Moments:

@@ -20,9 +20,9 @@ from environment import describe
 ROUNDS = 15
 FIRST_ROUNDS = 5
 
-#: what a tool like this can not do without: numba, click, rich and one call of a cached kernel
+#: what a tool like this can not do without: numba, click and one call of a cached kernel
 BARE = """
-import click, rich, rich.console, numba, numpy
+import click, numba, numpy
 @numba.njit(cache=True)
 def kernel(x):
     s = 0.0

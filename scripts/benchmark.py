@@ -22,7 +22,7 @@ from bench.workloads import WORKLOADS
 from environment import processor
 
 from montecarlo_brdf.judge.finding import versions
-from montecarlo_brdf.report.plots import save
+from montecarlo_brdf.report.pictures import encoded
 
 RESULTS = Path(__file__).parent / "results"
 PICTURE = RESULTS.parents[1] / "docs" / "figures" / "time_against_error.png"
@@ -54,7 +54,7 @@ def main() -> None:
         recorded.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
         print(name, "recorded", flush=True)
     (RESULTS / "bench.md").write_text(markdown(data), encoding="utf-8")
-    save(bench_figure(data), PICTURE)
+    PICTURE.write_bytes(encoded(bench_figure(data), "png"))
 
 
 def pinned() -> None:

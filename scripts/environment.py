@@ -7,7 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-PACKAGES = ("numba", "llvmlite", "numpy", "scipy", "click", "rich")
+PACKAGES = ("numba", "llvmlite", "numpy", "scipy", "click")
 
 
 def processor() -> str:

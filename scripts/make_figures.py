@@ -14,7 +14,8 @@ from pathlib import Path
 from bench.picture import bench_figure
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.report.plots import plot, save
+from montecarlo_brdf.cli._pictures import kind_of, plot
+from montecarlo_brdf.report.pictures import encoded
 from montecarlo_brdf.verify.converge import converge
 
 ROOT = Path(__file__).parent.parent
@@ -25,13 +26,13 @@ def albedo(path: Path) -> None:
     """Directional albedo of GGX against angle for several widths."""
     model = mb.load("ggx")
     sets = [model.parameters(alpha=a) for a in (0.05, 0.3, 0.6, 1.0)]
-    plot(mb.furnace(model, sets, ANGLES, target_error=1e-6, curve=True).to_dict(), path)
+    plot(mb.furnace(model, sets, ANGLES, target_error=1e-6, curve=True), path)
 
 
 def failing(path: Path) -> None:
     """A model that reflects more than it receives."""
     model = mb.load("lambert_unnormalised")
-    plot(mb.furnace(model, model.parameters(c=0.5), ANGLES, curve=True).to_dict(), path)
+    plot(mb.furnace(model, model.parameters(c=0.5), ANGLES, curve=True), path)
 
 
 def convergence(name: str, theta: float, **values: float) -> Callable[[Path], None]:
@@ -39,7 +40,7 @@ def convergence(name: str, theta: float, **values: float) -> Callable[[Path], No
 
     def draw(path: Path) -> None:
         model = mb.load(name)
-        plot(converge(model, model.parameters(**values), theta).to_dict(), path)
+        plot(converge(model, model.parameters(**values), theta), path)
 
     return draw
 
@@ -48,7 +49,8 @@ def time_against_error(path: Path) -> None:
     """Error against seconds, ours and peers."""
     recorded = ROOT / "scripts" / "results" / "bench.json"
     if recorded.is_file():
-        save(bench_figure(json.loads(recorded.read_text(encoding="utf-8"))), path)
+        data = json.loads(recorded.read_text(encoding="utf-8"))
+        path.write_bytes(encoded(bench_figure(data), kind_of(path)))
 
 
 FIGURES: dict[str, Callable[[Path], None]] = {

@@ -34,16 +34,17 @@ FLOW = (
 RANK = {part: rank for rank, row in enumerate(FLOW) for part in row}
 #: Imported by those who compare with the truth, and importing nothing of the package.
 REFERENCES = "references"
-COMPARE = ("checks", "report", "scene", "truth")
+COMPARE = ("checks", "cli", "scene", "truth")
 #: What a model may use: a user's own file has exactly the form of a built-in one.
 FOR_MODELS = {"bits", "models", "sampling.warps", "special", "vectors"}
+#: What a report is made from; a picture or a text needs nothing else.
+FOR_REPORTS = ("errors.", "judge.finding.", "report.")
 #: package -> where it may be imported
 KEPT_IN = {
     "click": ("cli/",),
     "matplotlib": ("report/",),
     "numba": ("compile/",),
     "llvmlite": ("compile/",),
-    "rich": ("report/", "cli/_progress.py"),
 }
 #: Slow to import: never at the top of a file, so that --help stays instant.
 LATE = ("numba", "llvmlite", "scipy", "matplotlib")
@@ -75,7 +76,11 @@ def imported(tree: ast.AST) -> Iterator[tuple[str, ast.AST]]:
 def inside(tree: ast.AST) -> set[ast.AST]:
     """Nodes that run only when a function is called or a type checker looks."""
     late = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)
-    return {n for f in ast.walk(tree) if isinstance(f, late) for n in ast.walk(f)}
+    return {n for f in ast.walk(tree) if isinstance(f, late) or _typing(f) for n in ast.walk(f)}
+
+
+def _typing(node: ast.AST) -> bool:
+    return isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
 
 
 def own(tree: ast.AST) -> set[str]:
@@ -88,7 +93,8 @@ def faults(path: str, source: str) -> list[str]:
     """What is wrong with the imports of a file at `path` within the package."""
     tree = ast.parse(source)
     part = path.split("/")[0].removesuffix(".py")
-    return [*wrong_way(part, tree), *not_for_models(path, tree), *misplaced(path, tree)]
+    given = [*not_for_models(path, tree), *not_for_reports(path, tree)]
+    return [*wrong_way(part, tree), *given, *misplaced(path, tree)]
 
 
 def wrong_way(part: str, tree: ast.AST) -> Iterator[str]:
@@ -113,6 +119,13 @@ def not_for_models(path: str, tree: ast.AST) -> Iterator[str]:
                 yield f"a model imports {name}"
             if name.startswith("sampling.") and not name.startswith("sampling.warps"):
                 yield f"a model imports {name}"
+
+
+def not_for_reports(path: str, tree: ast.AST) -> Iterator[str]:
+    if path.startswith("report/"):
+        for name in own(tree):
+            if name != "judge" and not f"{name}.".startswith(FOR_REPORTS):
+                yield f"a report imports {name}"
 
 
 def misplaced(path: str, tree: ast.AST) -> Iterator[str]:
@@ -146,6 +159,8 @@ def test_every_part_has_its_place() -> None:
         ("estimate/wrong.py", "from montecarlo_brdf.references import albedo"),
         ("vectors.py", "def f():\n    from montecarlo_brdf.sampling import warps"),
         ("report/wrong.py", "import click"),
+        ("report/wrong.py", "from montecarlo_brdf import statistics"),
+        ("report/wrong.py", "from montecarlo_brdf.judge import claim"),
         ("verify/wrong.py", "def f():\n    import matplotlib.pyplot"),
         ("compile/wrong.py", "import numba"),
         ("checks/wrong.py", "def f():\n    import numba"),

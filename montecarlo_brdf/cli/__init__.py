@@ -107,7 +107,7 @@ def execute(arguments: list[str]) -> int:
         if isinstance(error, BrokenPipeError):  # `| head`: nobody reads an error message either
             return OutputError.exit_code
         return _say(f"Error: cannot write to stdout: {error.strerror}", OutputError.exit_code)
-    except SystemExit as done:  # completion's 0, or rich's 1 at a closed pipe: no verdict
+    except SystemExit as done:  # completion's: no verdict
         return OutputError.exit_code if done.code else 0
     except Exception as error:
         if os.environ.get("BRDF_CHECK_DEBUG"):

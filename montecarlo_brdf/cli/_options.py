@@ -144,7 +144,7 @@ class Output(NamedTuple):
         for path in filter(None, (self.export_json, self.plot, *self._files())):
             check_writable(path)
         if self.plot:
-            from montecarlo_brdf.report.plots import kind_of
+            from montecarlo_brdf.report.pictures import kind_of
 
             kind_of(self.plot)
 
@@ -161,28 +161,27 @@ class Output(NamedTuple):
 def import_format(output: Output) -> None:
     """Have at hand what takes longest to import of what `deliver` needs."""
     if output.form == TEXT:
-        from montecarlo_brdf.report import text  # noqa: F401
+        from montecarlo_brdf.cli import _terminal  # noqa: F401
 
 
-def deliver(report: Report, output: Output, show: Callable[[], None] | None = None) -> int:
-    """Print, write and draw a report; the exit code of the command. show: prints the text."""
+def deliver(report: Report, output: Output) -> int:
+    """Print, write and draw a report; the exit code of the command."""
     policy = output.inconclusive
     if policy:
         report.settings["inconclusive"] = policy
     if output.plot:
-        from montecarlo_brdf.report.plots import plot
+        from montecarlo_brdf.cli._pictures import plot
 
-        plot(report.to_dict(), output.plot)
+        plot(report, output.plot)
     for path, form in output._files().items():
         write_text(path, formats.render(report, form))
     if output.form != TEXT:
         click.echo(formats.render(report, output.form), nl=False)
-    elif show:
-        show()
     else:
+        from montecarlo_brdf.cli import _terminal
         from montecarlo_brdf.report import text
 
-        text.show(report, output.verbose)
+        _terminal.tell(text.render(report, output.verbose, _terminal.width(), _terminal.colour()))
     if output.form == "github":
         _summarise(report)
     undecided = report.verdict == Verdict.INCONCLUSIVE

@@ -55,13 +55,12 @@ def command(
     from montecarlo_brdf import files, loading
     from montecarlo_brdf.cli._progress import progress
     from montecarlo_brdf.report import bench as report
-    from montecarlo_brdf.report import plots
+    from montecarlo_brdf.report.pictures import encoded, kind_of
     from montecarlo_brdf.verify.bench import bench
 
     for path in filter(None, (export, plot)):
         files.check_writable(path)
-    if plot:
-        plots.kind_of(plot)
+    kind = kind_of(plot) if plot else ""
     model = loading.load(spec)
     sets = parameter_sets(model, assignments)
     if len(sets) > 1:
@@ -75,5 +74,5 @@ def command(
     if export:
         files.write_text(export, text)
     if plot:
-        plots.save(report.figure(data), plot)
+        files.write_bytes(plot, encoded(report.figure(data), kind))
     return 0

@@ -11,7 +11,9 @@ import click
 def command() -> int:
     """All built-in models: one line each, parameters with their ranges, reference, disclaimers."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.report.catalogue import show_all
+    from montecarlo_brdf.cli import _catalogue
+    from montecarlo_brdf.cli._terminal import tell_table
 
-    show_all([loading.load(name) for name in loading.names()])
+    rows = [_catalogue.row(loading.load(name)) for name in loading.names()]
+    tell_table(_catalogue.COLUMNS, rows)
     return 0

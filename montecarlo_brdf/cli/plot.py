@@ -16,8 +16,8 @@ import click
               help="PNG, SVG or PDF. [-o albedo.png]")  # fmt: skip
 def command(report: Path, output: Path) -> int:
     """Draw the picture of an exported report."""
+    from montecarlo_brdf.cli._pictures import plot
     from montecarlo_brdf.files import check_writable
-    from montecarlo_brdf.report.plots import plot
     from montecarlo_brdf.report.read import read_report
 
     check_writable(output)

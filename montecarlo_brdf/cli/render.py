@@ -74,8 +74,8 @@ def command(
     picture is no verdict: see `brdf-check furnace` and `brdf-check radiance`.
     """
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.files import check_writable
-    from montecarlo_brdf.report import spheres
+    from montecarlo_brdf.files import check_writable, write_bytes
+    from montecarlo_brdf.report.pictures import spheres
     from montecarlo_brdf.scene.render import render
     from montecarlo_brdf.vectors import from_degrees
     from montecarlo_brdf.verify.results import part_of
@@ -83,7 +83,7 @@ def command(
 
     for path in outputs:
         check_writable(path)
-        spheres.check_kind(path)
+        spheres.kind_of(path)
     for name, value, low, high in (("size", size, 8, 4096), ("samples", samples, 1, 1 << 20)):
         if not low <= value <= high:
             raise UserError(f"{name} must be a whole number from {low} to {high}, not {value}")
@@ -113,7 +113,8 @@ def command(
             click.echo(_said(label, one, furnace))
     labels = [label for label, _ in scenes]
     for path in outputs:
-        spheres.save(path, made, labels, FURNACE if furnace else None, columns)
+        light = FURNACE if furnace else None
+        write_bytes(path, spheres.drawn(spheres.kind_of(path), made, labels, light, columns))
     return 0
 
 

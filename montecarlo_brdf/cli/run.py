@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -158,7 +158,7 @@ def _not_begun(request: Request) -> Report:
     return Report("run", {}, [result], {"seconds": 0.0, "interrupted": True})
 
 
-def finish(report: Report, output: _options.Output, earlier: dict[str, Any] | None) -> int:
+def finish(report: Report, output: _options.Output, earlier: Report | None) -> int:
     """Deliver the report; the exit code, which with a baseline counts what got worse."""
     import gc
 
@@ -171,12 +171,12 @@ def finish(report: Report, output: _options.Output, earlier: dict[str, Any] | No
     return code if earlier is None else _difference(report, earlier, output.inconclusive)
 
 
-def _difference(report: Report, earlier: dict[str, Any], policy: Policy | None) -> int:
+def _difference(report: Report, earlier: Report, policy: Policy | None) -> int:
     """Tell on stderr what changed; the exit code counts only what got worse."""
     from montecarlo_brdf.judge.finding import EXIT_CODES, Verdict
     from montecarlo_brdf.report import baseline
 
-    found = baseline.changes(report.to_dict(), earlier)
+    found = baseline.changes(report, earlier)
     for change in found:
         click.echo(str(change), err=True)
     worse = sum(change.kind in baseline.KINDS[:2] for change in found)

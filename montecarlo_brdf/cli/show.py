@@ -14,7 +14,10 @@ from montecarlo_brdf.cli._options import model_names
 def command(spec: str) -> int:
     """Formula, units, source, parameters, sampling, what the model claims and what it disclaims."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.report.catalogue import show_one
+    from montecarlo_brdf.cli._catalogue import page
+    from montecarlo_brdf.cli._terminal import colour, tell
+    from montecarlo_brdf.report.columns import Style, painted
 
-    show_one(loading.load(spec))
+    model = loading.load(spec)
+    tell("\n".join([painted(model.name, Style.BOLD, colour()), *page(model)]))
     return 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -62,9 +61,8 @@ def command(
     """
     from montecarlo_brdf.cli._progress import progress
     from montecarlo_brdf.cli._values import parameter_sets
-    from montecarlo_brdf.report.stress import show
     from montecarlo_brdf.stability.specimens import load
-    from montecarlo_brdf.verify.stress import measured
+    from montecarlo_brdf.verify.stress import stress
 
     output.check()
     if bool(spec) == bool(compare):
@@ -78,8 +76,10 @@ def command(
     if at:
         return show_point(models[0], sets, at)
     with progress(f"stress {', '.join(m.name for m in models)}") as update:
-        report, found = measured(models, sets, precisions, max_error, quick, update)
-    return _options.deliver(report, output, functools.partial(show, report, found))
+        report = stress(
+            models, sets, precisions=precisions, max_error=max_error, quick=quick, progress=update
+        )
+    return _options.deliver(report, output)
 
 
 def show_point(model: Model, sets: Sequence[Any] | None, text: str) -> int:

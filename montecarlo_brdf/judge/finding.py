@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
+from montecarlo_brdf.statistics import FLOOR, with_error
+
 SCHEMA = 1
 
 
@@ -77,6 +79,17 @@ class Finding:
     note: str | None = None
     hint: str | None = None
     reproduce: str | None = None
+
+    @property
+    def number(self) -> str:
+        """The value with its error bar: '0.68899(76)', '0.8(0)' if it is exact to rounding."""
+        return with_error(self.value, self.stderr)
+
+    @property
+    def as_wished(self) -> bool:
+        """Whether the value is what is expected, to rounding: nothing happened where it is from."""
+        wish = self.expected
+        return wish is not None and abs(self.value - wish) <= FLOOR * abs(wish)
 
 
 @dataclass(frozen=True)

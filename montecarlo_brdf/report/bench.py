@@ -4,7 +4,7 @@ from __future__ import annotations
 import textwrap
 from typing import Any
 
-from montecarlo_brdf.report.plots import COLOURS
+from montecarlo_brdf.report.pictures.style import COLOURS
 from montecarlo_brdf.report.sentences import called
 
 #: A line and a marker for each point set, and for "auto"; colours stand for samplers.

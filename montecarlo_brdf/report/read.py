@@ -7,10 +7,17 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.judge.finding import SCHEMA
+from montecarlo_brdf.judge.finding import SCHEMA, Bound, Finding, Report, Result, Verdict
+
+NUMBER = (int, float)
+#: members of a result and of a finding -> their type; others are not looked at
+RESULT: dict[str, type | tuple[type, ...]] = {"model": str, "params": dict, "check": str}
+RESULT |= {"findings": list, "curves": list, "source": dict}
+FINDING: dict[str, type | tuple[type, ...]] = {"quantity": str, "where": dict, "estimators": list}
+FINDING |= dict.fromkeys(("value", "stderr", "expected", "tolerance", "resolves", "level"), NUMBER)
 
 
-def read_report(path: Path) -> dict[str, Any]:
+def read_report(path: Path) -> Report:
     """The report in a JSON file, or a UserError that says what is wrong with the file."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
@@ -24,27 +31,32 @@ def read_report(path: Path) -> dict[str, Any]:
         raise UserError(
             f"{path} has schema {data.get('schema')}; this version reads schema {SCHEMA}"
         )
-    if not all(map(_is_result, data["results"])):
-        raise UserError(f"{path} is not a report of brdf-check: its results are damaged")
-    return data
+    try:
+        results = [_result(result) for result in data["results"]]
+        settings, measured = (dict(data.get(name, {})) for name in ("settings", "measured"))
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise UserError(
+            f"{path} is not a report of brdf-check: its results are damaged"
+        ) from error
+    return Report(str(data.get("command")), settings, results, measured)
 
 
-def _is_result(result: Any) -> bool:
-    """Whether this has what every result and every finding has."""
-    return (
-        isinstance(result, dict)
-        and isinstance(result.get("params"), dict)
-        and isinstance(result.get("model"), str)
-        and isinstance(result.get("check"), str)
-        and isinstance(result.get("findings"), list)
-        and all(map(_is_finding, result["findings"]))
-    )
+def _result(data: dict[str, Any]) -> Result:
+    known = _known(data, RESULT)
+    known.pop("verdict", None)  # that of its findings
+    return Result(**{**known, "findings": [_finding(f) for f in known["findings"]]})
 
 
-def _is_finding(finding: Any) -> bool:
-    return (
-        isinstance(finding, dict)
-        and isinstance(finding.get("quantity"), str)
-        and isinstance(finding.get("where"), dict)
-        and isinstance(finding.get("verdict"), str)
-    )
+def _finding(data: dict[str, Any]) -> Finding:
+    known = _known(data, FINDING)
+    verdict, bound = Verdict(known["verdict"]), Bound(known.get("bound", Bound.EQUAL))
+    return Finding(**{**known, "verdict": verdict, "bound": bound})
+
+
+def _known(data: dict[str, Any], types: dict[str, type | tuple[type, ...]]) -> dict[str, Any]:
+    """Without what is null: a number that was not finite."""
+    known = {name: value for name, value in data.items() if value is not None}
+    for name in known.keys() & types.keys():
+        if not isinstance(known[name], types[name]):
+            raise TypeError(name)
+    return known

@@ -6,8 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result
-from montecarlo_brdf.statistics import with_error
+from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdict
 
 SYMBOLS = {
     "theta_o_deg": "theta_o",
@@ -16,9 +15,14 @@ SYMBOLS = {
     "phi_i_deg": "phi_i",
     "channel": "ch",
 }
-SIGNS = {"at most": "<= ", "at least": ">= ", "equal": ""}
-#: what needs somebody's attention, and how it counts
-BAD = ("error", "fail", "inconclusive")
+SIGNS = {Bound.AT_MOST: "<= ", Bound.AT_LEAST: ">= ", Bound.EQUAL: ""}
+#: what needs somebody's attention
+BAD = (Verdict.ERROR, Verdict.FAIL, Verdict.INCONCLUSIVE)
+#: as a summary counts them
+ORDER = (
+    *(Verdict.PASS, Verdict.FAIL, Verdict.ERROR),
+    *(Verdict.INCONCLUSIVE, Verdict.KNOWN, Verdict.SKIPPED),
+)
 
 
 def case(result: Result) -> str:
@@ -48,9 +52,12 @@ def coordinate(name: str, value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def place(finding: Finding) -> str:
-    """'theta_o 45° ch 1'; empty if the finding is about everything."""
-    return " ".join(f"{SYMBOLS.get(k, k)} {coordinate(k, v)}" for k, v in finding.where.items())
+def place(finding: Finding, glue: str = " ") -> str:
+    """'theta_o 45° ch 1'; empty if the finding is about everything. `glue` holds a name to its
+    value."""
+    return " ".join(
+        f"{SYMBOLS.get(k, k)}{glue}{coordinate(k, v)}" for k, v in finding.where.items()
+    )
 
 
 def bound(finding: Finding) -> str:
@@ -58,7 +65,7 @@ def bound(finding: Finding) -> str:
     if finding.expected is None:
         return ""
     tolerance = f" +- {finding.tolerance:.1e}" if finding.tolerance else ""
-    return f"{SIGNS[finding.bound]}{finding.expected:.8g}{tolerance}"
+    return f"{SIGNS[Bound(finding.bound)]}{finding.expected:.8g}{tolerance}"
 
 
 def statement(finding: Finding) -> str:
@@ -67,7 +74,7 @@ def statement(finding: Finding) -> str:
     if finding.samples is None:  # never evaluated
         return f"{finding.quantity}{at}"
     allowed = f", allowed {bound(finding)}" if finding.expected is not None else ""
-    return f"{finding.quantity}{at}: found {with_error(finding.value, finding.stderr)}{allowed}"
+    return f"{finding.quantity}{at}: found {finding.number}{allowed}"
 
 
 def explanation(finding: Finding) -> list[str]:
@@ -78,9 +85,8 @@ def explanation(finding: Finding) -> list[str]:
 
 def tally(findings: Iterable[Finding]) -> str:
     """'33 pass, 1 skipped'."""
-    counts: Counter[str] = Counter(f.verdict for f in findings)
-    order = ("pass", "fail", "error", "inconclusive", "known", "skipped")
-    return ", ".join(f"{counts[v]} {v}" for v in order if counts[v])
+    counts = Counter(f.verdict for f in findings)
+    return ", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v])
 
 
 def origin(result: Result) -> list[str]:

@@ -1,46 +1,96 @@
 """A report as people read it on a terminal: a table, then what needs attention."""
+
 from __future__ import annotations
 
 import itertools
 import math
-import sys
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
 
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
-
-from montecarlo_brdf.judge.finding import SEVERITY, Finding, Report, Result, worst
+from montecarlo_brdf.judge.finding import SEVERITY, Bound, Finding, Report, Result, Verdict, worst
+from montecarlo_brdf.report.columns import NO_BREAK, Column, Row, Style, painted, table
 from montecarlo_brdf.report.sentences import SYMBOLS, bound, case, coordinate, place, tally
-from montecarlo_brdf.statistics import with_error
 
-COLOURS = {
-    "pass": "green",
-    "fail": "bold red",
-    "error": "bold red",
-    "inconclusive": "yellow",
-    "known": "cyan",
-    "skipped": "dim",
+STYLES = {
+    Verdict.PASS: Style.GREEN,
+    Verdict.FAIL: Style.LOUD,
+    Verdict.ERROR: Style.LOUD,
+    Verdict.INCONCLUSIVE: Style.YELLOW,
+    Verdict.KNOWN: Style.CYAN,
+    Verdict.SKIPPED: Style.DIM,
 }
-PLAIN_WIDTH = 118
+PLAIN_WIDTH = 118  # where there is no terminal
 
 
-def show(report: Report, verbose: bool = False) -> None:
-    """Print a report on stdout."""
-    width = None if sys.stdout.isatty() else PLAIN_WIDTH
-    console = Console(width=width, highlight=False, soft_wrap=False)
-    if report.command == "run" and not verbose:
+def style(verdict: str) -> Style:
+    """The colour of a verdict, however it is written."""
+    return STYLES[Verdict(verdict.lower())] if verdict else Style.NONE
+
+
+VERDICT = Column("verdict", style=style)
+ESTIMATE = Column("estimate")
+#: of one finding, after the columns of its place
+FINDING = (
+    *(Column("quantity", fold=1), ESTIMATE, Column("expected", fold=3)),
+    *(Column("tolerance", fold=4), Column("resolves", fold=5), Column("by", fold=6), VERDICT),
+)
+#: of one check
+CHECK = (
+    *(Column("check"), Column("claims", fold=2), Column("worst", fold=1, words=True), ESTIMATE),
+    *(Column("bound", fold=3), Column("where", fold=4, words=True), VERDICT),
+)
+#: of one precision: name -> fold
+NUMBERS = {
+    "precision": 0, "points": 8, "worst error": 0, "ulps": 2, "allowed": 1,
+    "with rounded inputs": 7, "NaN": 3, "Inf": 4, f"<{NO_BREAK}0": 5, "flushed": 6,
+    "safe from": 10, "|sample| - 1": 9,
+}  # fmt: skip
+PRECISION = (*(Column(name, fold, right=True) for name, fold in NUMBERS.items()), VERDICT)
+
+
+class Section(NamedTuple):
+    """A table with its title, and the sentences below it."""
+
+    title: str
+    columns: Sequence[Column]
+    rows: list[Row]
+    sentences: Iterable[str]
+
+
+def render(
+    report: Report, verbose: bool = False, width: int = PLAIN_WIDTH, colour: bool = False
+) -> str:
+    """A report as text. Tables keep to the width; a sentence is one line, however long."""
+    lines = []
+    for section in _sections(report, verbose):
+        lines.append(painted(section.title, Style.BOLD, colour))
+        lines += table(section.columns, section.rows, width, colour)
+        lines += dict.fromkeys(section.sentences)
+    return "\n".join([*lines, summary(report, colour)]) + "\n"
+
+
+def _sections(report: Report, verbose: bool) -> Iterator[Section]:
+    if report.command == "stress":
+        for result, precisions in zip(report.results, report.measured["precisions"], strict=True):
+            rows = [_precision(result, measured) for measured in precisions]
+            yield Section(title(result), PRECISION, rows, _broken(result))
+    elif report.command == "run" and not verbose:
         for group in grouped(report.results):
-            console.print(Text(title(group[0]).rpartition("  ")[0], style="bold"))
-            console.print(check_table(group))
-            for result in group:
-                _print_attention(console, result, verbose, f"{result.check}: ")
+            rows = [_check(result) for result in group if result.findings]
+            sentences = (s for r in group for s in _attention(r, verbose, f"{r.check}: "))
+            yield Section(case(group[0]), CHECK, rows, sentences)
     else:
         for result in report.results:
-            console.print(Text(title(result), style="bold"))
-            console.print(table(result))
-            _print_attention(console, result, verbose)
-    console.print(summary(report), soft_wrap=True)
+            places = list(dict.fromkeys(k for f in result.findings for k in f.where))
+            columns = [Column(SYMBOLS.get(k, k), fold=2, right=True) for k in places]
+            rows = [_finding(f, places) for f in result.findings]
+            yield Section(title(result), [*columns, *FINDING], rows, _attention(result, verbose))
+
+
+def title(result: Result) -> str:
+    """'lambert(albedo=0.8)  furnace'."""
+    return f"{case(result)}  {result.check}" if result.model else result.check
 
 
 def grouped(results: list[Result]) -> list[list[Result]]:
@@ -49,90 +99,69 @@ def grouped(results: list[Result]) -> list[list[Result]]:
     return [list(group) for _, group in itertools.groupby(results, key)]
 
 
-def check_table(results: list[Result]) -> Table:
-    """One row per check: how many claims, and the worst finding."""
-    grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for name in ("check", "claims", "worst", "estimate", "bound", "where", "verdict"):
-        grid.add_column(name, overflow="fold", no_wrap=name in ("check", "verdict"))
-    for result in filter(lambda r: r.findings, results):
-        f = most_telling(result)
-        known = f.expected is not None and math.isfinite(f.value)
-        grid.add_row(
-            result.check,
-            str(sum(g.verdict != "skipped" for g in result.findings)),
-            f.quantity if known else "",
-            with_error(f.value, f.stderr) if known else "",
-            bound(f) if known else "",
-            place(f),
-            Text(loud(f.verdict), COLOURS[f.verdict]),
-        )
-    return grid
-
-
 def most_telling(result: Result) -> Finding:
     """The worst finding of a check, or the one that came nearest to its tolerance."""
-    return min(result.findings, key=lambda f: (SEVERITY.index(f.verdict), -_excess(f)))
-
-
-def loud(verdict: str) -> str:
-    """A verdict, in capitals if it is bad."""
-    return verdict.upper() if verdict in ("fail", "error") else verdict
+    return min(result.findings, key=lambda f: (SEVERITY.index(Verdict(f.verdict)), -_excess(f)))
 
 
 def _excess(f: Finding) -> float:
     """How near a finding came to its tolerance."""
     if f.expected is None or not f.tolerance or not math.isfinite(f.value):
         return 0.0
-    return abs(f.value - f.expected) / f.tolerance if f.bound == "equal" else f.value - f.expected
+    over = f.value - f.expected
+    return abs(over) / f.tolerance if f.bound == Bound.EQUAL else over
 
 
-def title(result: Result) -> str:
-    """'lambert(albedo=0.8)  furnace'."""
-    return f"{case(result)}  {result.check}" if result.model else result.check
+def loud(verdict: str) -> str:
+    """A verdict, in capitals if it is bad."""
+    return verdict.upper() if verdict in (Verdict.FAIL, Verdict.ERROR) else verdict
 
 
-def table(result: Result) -> Table:
-    """One row per finding."""
-    places = list(dict.fromkeys(k for f in result.findings for k in f.where))
-    grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for name in places:
-        grid.add_column(SYMBOLS.get(name, name), justify="right", no_wrap=True)
-    for name in ("quantity", "estimate", "expected", "tolerance", "resolves", "by", "verdict"):
-        grid.add_column(name, justify="left", no_wrap=name in ("estimate", "verdict"))
-    for finding in result.findings:
-        grid.add_row(*[coordinate(k, finding.where.get(k)) for k in places], *_cells(finding))
-    return grid
+def _check(result: Result) -> Row:
+    """How many claims a check has, and its worst finding; where nothing happened is no place."""
+    f = most_telling(result)
+    known = f.expected is not None and math.isfinite(f.value)
+    nothing = f.verdict == Verdict.PASS and f.as_wished
+    return (
+        result.check,
+        str(sum(g.verdict != Verdict.SKIPPED for g in result.findings)),
+        f.quantity if known else "",
+        f.number if known else "",
+        bound(f) if known else "",
+        "" if nothing else place(f, NO_BREAK),
+        loud(f.verdict),
+    )
 
 
-def _cells(f: Finding) -> list[Any]:
-    return [
+def _finding(f: Finding, places: list[str]) -> Row:
+    sign = "<= " if f.bound == Bound.AT_MOST else ""
+    return (
+        *(coordinate(k, f.where.get(k)) for k in places),
         f.quantity,
-        with_error(f.value, f.stderr),
-        "" if f.expected is None else ("<= " if f.bound == "at most" else "") + f"{f.expected:.8g}",
+        f.number,
+        "" if f.expected is None else f"{sign}{f.expected:.8g}",
         "" if f.tolerance is None else f"{f.tolerance:.1e}",
         "" if f.resolves is None else f"{f.resolves:.1e}",
         f.estimator or "",
-        Text(f.verdict.upper() if f.verdict != "pass" else "pass", style=COLOURS[f.verdict]),
-    ]
+        f.verdict if f.verdict == Verdict.PASS else f.verdict.upper(),
+    )
 
 
-def _print_attention(console: Console, result: Result, verbose: bool, about: str = "") -> None:
-    """Hints, reasons, reproduction commands; every distinct sentence once. `about` says whose they
-    are where several checks share a table."""
-    lines: dict[str, None] = {}
+def _attention(result: Result, verbose: bool, about: str = "") -> Iterator[str]:
+    """Estimators, hints, reasons, reproduction commands. `about` says whose they are where several
+    checks share a table."""
     for f in result.findings:
-        if verbose:
-            for row in f.estimators:
-                value = with_error(float(row["value"]), float(row["stderr"]))
-                at = f"{place(f) or 'it'} {f.quantity}: {row['estimator']}"
-                lines[f"  {at} {value} {row['verdict']}"] = None
-        for kind, sentence in (("note", f.note), ("hint", f.hint), ("repro", f.reproduce)):
+        for row in f.estimators if verbose else ():
+            number = replace(f, value=row["value"], stderr=row["stderr"]).number
+            at = f"{place(f) or 'it'} {f.quantity}: {row['estimator']}"
+            yield f"  {at} {number} {row['verdict']}"
+        for kind, sentence in (("note", f.note), ("hint", f.hint)):
             if sentence:
-                lines[f"  {kind:5} {'' if kind == 'repro' else about}{sentence}"] = None
+                yield f"  {kind:5} {about}{sentence}"
+        if f.reproduce:
+            yield f"  repro {f.reproduce}"
     for name, reason, where in _not_used(result):
-        lines[f"  {about}{name} sampling not used at {where}: {reason}"] = None
-    for line in lines:
-        console.print(Text(line), soft_wrap=True)
+        yield f"  {about}{name} sampling not used at {where}: {reason}"
 
 
 def _not_used(result: Result) -> list[tuple[str, str, str]]:
@@ -140,23 +169,50 @@ def _not_used(result: Result) -> list[tuple[str, str, str]]:
     found: dict[str, tuple[str, dict[str, None]]] = {}
     for f in result.findings:
         for row in f.estimators:
-            if "not_used" in row and f.bound == "equal":
+            if "not_used" in row and f.bound == Bound.EQUAL:
                 _, places = found.setdefault(row["estimator"], (row["not_used"], {}))
                 places[place(f) or "it"] = None
     return [(name, reason, ", ".join(places)) for name, (reason, places) in found.items()]
 
 
-def summary(report: Report) -> Text:
+def _precision(result: Result, measured: Mapping[str, Any]) -> Row:
+    """What one precision does to a model: `measured` is a row of `verify.stress`."""
+    eps = measured["eps"]
+    name, safe, length = (measured[k] for k in ("parameter", "safe", "length"))
+    sharpest = "none" if safe is None or math.isnan(safe) else f"{safe:.3g}"
+    verdicts = {f.verdict for f in result.findings if f.where["precision"] == measured["name"]}
+    verdict = worst(verdicts - {Verdict.PASS} or verdicts)  # one that is known is told
+    return (
+        measured["name"],
+        str(measured["points"]),
+        f"{measured['worst']:.1e}",
+        f"{measured['worst'] / eps:.2g}",
+        f"{measured['allowed']:.0e}",
+        f"{measured['with_inputs']:.1e}",
+        *(str(measured[kind]) for kind in ("nan", "inf", "negative", "flushed")),
+        f"{name} {sharpest}" if name else "",
+        "" if length is None else f"{length / eps:.1f} eps",
+        verdict if verdict == Verdict.PASS else verdict.upper(),
+    )
+
+
+def _broken(result: Result) -> Iterator[str]:
+    for f in result.findings:
+        if f.verdict in (Verdict.FAIL, Verdict.KNOWN):
+            yield f"  {f.where['precision']}: {f.quantity} {f.value:.2g}: {f.note}"
+            if f.reproduce:
+                yield f"  repro {f.reproduce}"
+
+
+def summary(report: Report, colour: bool = False) -> str:
     """The verdict, how it came about, and how often it would be wrong."""
     findings = [f for r in report.results for f in r.findings]
-    counts = tally(findings)
+    verdict = painted(report.verdict.upper(), style(worst(f.verdict for f in findings)), colour)
+    if report.command == "stress":
+        return verdict
     samples = max((f.samples or 0 for f in findings), default=0)
-    verdict = worst(f.verdict for f in findings) if findings else "skipped"
     points = f"{kind} points, " if (kind := report.settings.get("points")) else ""
-    text = Text(f"{report.verdict.upper()}", style=COLOURS.get(verdict, ""))
-    text.append(
-        f"  {counts}; up to {samples} samples a claim, {points}"
-        f"seed {report.settings.get('seed')}; chance of a false alarm <= {report.level:.1g}",
-        style="not bold default",
+    return (
+        f"{verdict}  {tally(findings)}; up to {samples} samples a claim, {points}"
+        f"seed {report.settings.get('seed')}; chance of a false alarm <= {report.level:.1g}"
     )
-    return text

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Plan
@@ -42,18 +42,6 @@ def stress(
     Returns a Report with one Result per model. Raises UserError for a bad value, ModelError if f
     does not run in a precision.
     """
-    return measured(models, p, precisions, max_error, quick, progress)[0]
-
-
-def measured(
-    models: Model | Sequence[Model],
-    p: Sequence[NamedTuple] | None = None,
-    precisions: Sequence[str] | None = None,
-    max_error: float | None = None,
-    quick: bool = False,
-    progress: Progress | None = None,
-) -> tuple[Report, list[tuple[Model, list[Loss]]]]:
-    """The report and the measurements it is made of, per model; arguments as for `stress`."""
     if max_error is not None and not 0.0 < max_error <= 1.0:
         raise UserError(f"max-error must be a number in (0, 1], not {max_error}")
     asked = [precision(name) for name in precisions or ladder()]
@@ -69,7 +57,26 @@ def measured(
         found.append((model, many))
     results = [result(model, many, tuple(precisions or PROMISED)) for model, many in found]
     told = {"precisions": [one.name for one in asked], "max_error": max_error, "quick": quick}
-    return reported("stress", told, results, started), found
+    report = reported("stress", told, results, started)
+    report.measured["precisions"] = [[_numbers(one) for one in many] for _, many in found]
+    return report
+
+
+def _numbers(one: Loss) -> dict[str, Any]:
+    """What a precision lost, for the table; NaN where no value of the parameter is safe."""
+    parameter, safe = one.safe or (None, None)
+    return {
+        "name": one.precision,
+        "eps": one.eps,
+        "points": one.points,
+        "worst": one.worst.own if one.worst else 0.0,
+        "allowed": one.tolerance,
+        "with_inputs": one.worst_total.total if one.worst_total else 0.0,
+        **one.counts,
+        "parameter": parameter,
+        "safe": safe,
+        "length": one.draws.length if one.draws else None,
+    }
 
 
 def result(model: Model, found: Sequence[Loss], promised: Sequence[str]) -> Result:

@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-import json
-from typing import Any
+from pathlib import Path
 
 import pytest
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report import baseline
+from montecarlo_brdf.report.read import read_report
 
 
-def report(*verdicts: str, theta: float = 0.0, command: str = "run") -> dict[str, Any]:
-    """A report with one finding per verdict, as its JSON file gives it back."""
+def report(*verdicts: str, theta: float = 0.0, command: str = "run") -> Report:
+    """A report with one finding per verdict."""
     findings = [Finding("A", {"theta_o_deg": theta + k}, v) for k, v in enumerate(verdicts) if v]
     results = [Result("m", {"f0": (1.0, 0.5)}, "furnace", findings)]
-    plain: dict[str, Any] = json.loads(Report(command, {}, results).to_json())
-    return plain
+    return Report(command, {}, results)
+
+
+def again(one: Report, folder: Path) -> Report:
+    """A report as its JSON file gives it back."""
+    path = folder / "report.json"
+    path.write_text(one.to_json(), encoding="utf-8")
+    return read_report(path)
 
 
 @pytest.mark.parametrize(
@@ -41,8 +47,10 @@ def report(*verdicts: str, theta: float = 0.0, command: str = "run") -> dict[str
         ("", "known", "new", 0),
     ],
 )
-def test_kinds_and_codes(before: str, now: str, kind: str | None, code: int) -> None:
-    found = baseline.changes(report("pass", now), report("pass", before))
+def test_kinds_and_codes(
+    before: str, now: str, kind: str | None, code: int, tmp_path: Path
+) -> None:
+    found = baseline.changes(report("pass", now), again(report("pass", before), tmp_path))
     assert [c.kind for c in found] == ([kind] if kind else [])
     assert baseline.exit_code(found) == code
 

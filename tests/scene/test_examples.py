@@ -10,8 +10,9 @@ import pytest
 from scenes import EXAMPLES, estimates, written
 
 import montecarlo_brdf as mb
+from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.references import _irradiance
-from montecarlo_brdf.report.scene_plots import _headroom, radiance_figure
+from montecarlo_brdf.report.pictures.radiance import _headroom, figure
 from montecarlo_brdf.scene.radiance import value_of
 from montecarlo_brdf.scene.read import read_scene
 from montecarlo_brdf.vectors import from_degrees, half_vector, mirrored
@@ -156,9 +157,7 @@ def test_spectrum_and_band(cli: Callable[..., Any], tmp_path: Path) -> None:
 
 
 def test_the_picture_hides_no_point() -> None:
-    where = {"theta_o_deg": 30.0}
-    row = {"quantity": "L_o", "where": where, "value": 0.5, "expected": 0.5, "stderr": 1e-6}
-    result = {"model": "lambert", "findings": [row]}
-    top, bottom = radiance_figure({"verdict": "pass", "results": [result]}).axes
+    row = Finding("L_o", {"theta_o_deg": 30.0}, "pass", value=0.5, expected=0.5, stderr=1e-6)
+    top, bottom = figure(Report("radiance", {}, [Result("lambert", {}, "radiance", [row])])).axes
     assert top.get_ylim()[1] > 0.5 and bottom.get_legend() is None
     assert _headroom([0.0]) > 0.0  # a black surface has an axis too

@@ -11,7 +11,7 @@ from scenes import EXAMPLES, written
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.references import _irradiance
-from montecarlo_brdf.report.spheres import difference
+from montecarlo_brdf.report.pictures.spheres import difference
 from montecarlo_brdf.scene import truth
 from montecarlo_brdf.scene.read import read_scene, scene_of
 from montecarlo_brdf.scene.render import disk_of, in_world, render
@@ -153,11 +153,11 @@ def test_files(cli: Callable[..., Any], tmp_path: Path) -> None:
 def test_exr(tmp_path: Path) -> None:
     """What is written can be read again, also as a sky."""
     pytest.importorskip("OpenEXR")
-    from montecarlo_brdf.report.spheres import save
+    from montecarlo_brdf.report.pictures.spheres import drawn
     from montecarlo_brdf.scene.images import read_image
 
     sphere = render(read_scene(EXAMPLES / "standard.toml"), size=16)
-    save(tmp_path / "s.exr", [sphere], ["standard"], None)
+    (tmp_path / "s.exr").write_bytes(drawn("exr", [sphere], ["standard"], None))
     assert np.allclose(read_image(tmp_path / "s.exr"), sphere.values, rtol=1e-6)
 
 

@@ -59,22 +59,20 @@ def test_mistakes(cli: Cli, arguments: list[str], said: str) -> None:
 
 
 def test_infinite_errors_are_the_worst_of_a_heat_map() -> None:
-    from montecarlo_brdf.report.heat import _worst
+    from montecarlo_brdf.report.pictures.stability import _worst
 
     points = [(30.0, 0.1, None), (30.0, 0.1, 1e-9), (89.0, 0.1, 0.0), (89.0, 0.2, 7.0)]
     assert _worst(points) == {(60.0, 0.1): 1.0, (1.0, 0.1): 1e-17, (1.0, 0.2): 1.0}
 
 
 def test_a_heat_map_has_a_cell_per_angle_and_value_and_names_the_parameter() -> None:
-    from matplotlib.figure import Figure
+    from montecarlo_brdf.judge.finding import Report, Result
+    from montecarlo_brdf.report.pictures.stability import figure
 
-    from montecarlo_brdf.report.heat import draw
-
-    findings = [{"quantity": "smallest safe alpha", "where": {"precision": "float32"}}]
     points = [(theta, value, 1e-6) for theta in (0.0, 60.0, 89.99) for value in (1e-4, 0.3)]
-    figure = Figure()
-    draw({"results": [{"model": "m", "findings": findings, "curves": [points]}]}, figure)
-    axes = figure.axes[0]
+    measured = {"precisions": [[{"name": "float32", "parameter": "alpha"}]]}
+    report = Report("stress", {}, [Result("m", {}, "stability", [], [points])], measured)
+    axes = figure(report).axes[0]
     assert axes.get_ylabel() == "alpha" and axes.get_title() == "m, float32"
     assert [t.get_text() for t in axes.get_xticklabels()] == ["90", "30", "0.01"]
     assert [t.get_text() for t in axes.get_yticklabels()] == ["0.0001", "0.3"]

@@ -4,45 +4,40 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
-
 from montecarlo_brdf import references
 from montecarlo_brdf.model import PROPERTIES, Model
+from montecarlo_brdf.report.columns import Column, Row, Style
+
+COLUMNS = (
+    Column("model", style=lambda name: Style.BOLD),
+    Column("what it is", words=True),
+    Column("parameters", fold=2, words=True),
+    Column("reference", fold=3, words=True),
+    Column("disclaims", fold=1, words=True),
+)
 
 
-def show_all(models: list[Model]) -> None:
-    """A table of models."""
-    grid = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for name in ("model", "what it is", "parameters", "reference", "disclaims"):
-        grid.add_column(name, overflow="fold")
-    for model in models:
-        grid.add_row(
-            Text(model.name, style="bold"),
-            first_line(model),
-            ", ".join([*ranges(model), *options(model)]),
-            reference_kind(model),
-            ", ".join(model.disclaims) or "-",
-        )
-    Console(highlight=False).print(grid)
+def row(model: Model) -> Row:
+    """One model of a table."""
+    return (
+        model.name,
+        first_line(model),
+        ", ".join([*ranges(model), *options(model)]),
+        reference_kind(model),
+        ", ".join(model.disclaims) or "-",
+    )
 
 
-def show_one(model: Model) -> None:
-    """Everything about one model."""
+def page(model: Model) -> list[str]:
+    """Everything about one model but its name, in lines."""
     lines = [model.doc.strip(), "", "parameters: " + (", ".join(ranges(model)) or "none")]
     for category, picks in model.choices.items():
         lines.append(f"choice {category}: {', '.join(picks)} (now {model.picks[category]})")
         lines += [f"  {pick}: {said}" for pick in picks if (said := said_of(picks[pick]))]
     lines.append(f"sampler: {'its own' if model.sample else 'none of its own'}")
     lines.append(f"reference: {reference_kind(model)}")
-    claimed = [p for p in PROPERTIES if p not in model.disclaims]
-    lines.append("claims: " + ", ".join(claimed))
-    lines += [f"disclaims {name}: {reason}" for name, reason in model.disclaims.items()]
-    console = Console(highlight=False)
-    console.print(Text(model.name, style="bold"))
-    for line in lines:
-        console.print(Text(line), soft_wrap=True)
+    lines.append("claims: " + ", ".join(p for p in PROPERTIES if p not in model.disclaims))
+    return lines + [f"disclaims {name}: {reason}" for name, reason in model.disclaims.items()]
 
 
 def said_of(option: Any) -> str:

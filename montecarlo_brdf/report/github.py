@@ -4,11 +4,16 @@ The same run writes the Markdown report into $GITHUB_STEP_SUMMARY where that is 
 """
 from __future__ import annotations
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result
-from montecarlo_brdf.report.sentences import BAD, case, explanation, statement, tally
+from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+from montecarlo_brdf.report.sentences import case, explanation, statement, tally
 
-SUFFIX = ""  # for a terminal, not for a file
-LEVELS = {"error": "error", "fail": "error", "inconclusive": "warning", "known": "notice"}
+#: what is annotated, and how
+LEVELS = {
+    Verdict.ERROR: "error",
+    Verdict.FAIL: "error",
+    Verdict.INCONCLUSIVE: "warning",
+    Verdict.KNOWN: "notice",
+}
 
 
 def render(report: Report) -> str:
@@ -17,7 +22,7 @@ def render(report: Report) -> str:
         _command(result, finding)
         for result in report.results
         for finding in result.findings
-        if finding.verdict in (*BAD, "known")
+        if finding.verdict in LEVELS
     ]
     counts = tally(f for r in report.results for f in r.findings)
     return "\n".join([*lines, f"brdf-check {report.command}: {report.verdict}; {counts}"]) + "\n"
@@ -28,7 +33,7 @@ def _command(result: Result, finding: Finding) -> str:
     where = {**result.source, "title": title}
     properties = ",".join(f"{name}={_property(str(value))}" for name, value in where.items())
     message = "\n".join([statement(finding), *explanation(finding)])
-    return f"::{LEVELS[finding.verdict]} {properties}::{_data(message)}"
+    return f"::{LEVELS[Verdict(finding.verdict)]} {properties}::{_data(message)}"
 
 
 def _data(text: str) -> str:

@@ -11,12 +11,16 @@ import re
 from collections import Counter
 from xml.etree import ElementTree
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
 from montecarlo_brdf.report.sentences import case, explanation, origin, place, statement
 from montecarlo_brdf.report.text import grouped
 
-SUFFIX = ".xml"
-OUTCOMES = {"fail": "failure", "error": "error", "inconclusive": "error", "skipped": "skipped"}
+OUTCOMES = {
+    Verdict.FAIL: "failure",
+    Verdict.ERROR: "error",
+    Verdict.INCONCLUSIVE: "error",
+    Verdict.SKIPPED: "skipped",
+}
 INCONCLUSIVE = {"pass": "skipped", "fail": "failure"}
 #: characters that XML has no way to write
 FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -24,7 +28,8 @@ FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 def render(report: Report) -> str:
     """The whole report as one <testsuites>."""
-    outcomes = {**OUTCOMES, "inconclusive": INCONCLUSIVE.get(_policy(report), "error")}
+    policy = str(report.settings.get("inconclusive"))
+    outcomes = {**OUTCOMES, Verdict.INCONCLUSIVE: INCONCLUSIVE.get(policy, "error")}
     root = ElementTree.Element("testsuites", name=f"brdf-check {report.command}")
     for group in grouped(report.results):
         _suite(root, group, report, outcomes)
@@ -35,12 +40,8 @@ def render(report: Report) -> str:
     return ElementTree.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
-def _policy(report: Report) -> str:
-    return str(report.settings.get("inconclusive"))
-
-
 def _suite(
-    root: ElementTree.Element, group: list[Result], report: Report, outcomes: dict[str, str]
+    root: ElementTree.Element, group: list[Result], report: Report, outcomes: dict[Verdict, str]
 ) -> None:
     name = _legal(case(group[0]) or group[0].check)
     suite = ElementTree.SubElement(root, "testsuite", name=name)
@@ -49,8 +50,11 @@ def _suite(
         value = str(report.settings.get(key, ""))
         ElementTree.SubElement(properties, "property", name=key, value=value)
     for result in group:
+        # a dot separates packages in a class name, so those of numbers and file names must go
+        owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
         for finding, title in zip(result.findings, _titles(result), strict=True):
-            _case(suite, name, result, finding, title, outcomes)
+            test = ElementTree.SubElement(suite, "testcase", classname=owner, name=title)
+            _tell(test, result, finding, outcomes.get(Verdict(finding.verdict)))
     for key, number in _counts(suite).items():
         suite.set(key, str(number))
 
@@ -71,19 +75,10 @@ def _titles(result: Result) -> list[str]:
     return titles
 
 
-def _case(
-    suite: ElementTree.Element,
-    name: str,
-    result: Result,
-    finding: Finding,
-    title: str,
-    outcomes: dict[str, str],
+def _tell(
+    test: ElementTree.Element, result: Result, finding: Finding, outcome: str | None
 ) -> None:
-    # a dot separates packages in a class name, so those of numbers and file names must go
-    owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
-    test = ElementTree.SubElement(suite, "testcase", classname=owner, name=title)
     lines = [statement(finding), *explanation(finding), *origin(result)]
-    outcome = outcomes.get(finding.verdict)
     if outcome:
         # readers show the message alone: of what was never evaluated only the note tells anything
         told_by_note = outcome == "skipped" or finding.samples is None

@@ -1,9 +1,8 @@
 """JSON: the whole report, with a versioned schema."""
+
 from __future__ import annotations
 
 from montecarlo_brdf.judge.finding import Report
-
-SUFFIX = ".json"
 
 
 def render(report: Report) -> str:

@@ -6,9 +6,7 @@ import html
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.sentences import BAD, bound, case, explanation, place, statement, tally
 from montecarlo_brdf.report.text import grouped, loud, most_telling
-from montecarlo_brdf.statistics import with_error
 
-SUFFIX = ".md"
 HEADER = ("check", "worst", "estimate", "bound", "where", "verdict")
 
 
@@ -31,7 +29,7 @@ def _table(group: list[Result]) -> list[str]:
 
 
 def _row(result: Result, f: Finding) -> tuple[str, ...]:
-    value = with_error(f.value, f.stderr) if f.samples is not None else ""
+    value = f.number if f.samples is not None else ""
     cells = (result.check, f.quantity, value, bound(f), place(f), loud(f.verdict))
     return tuple(map(_cell, cells))
 

@@ -9,7 +9,6 @@ from typing import Any
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.sentences import shown
 
-SUFFIX = ".csv"
 NUMBERS = ("value", "stderr", "expected", "tolerance", "resolves", "samples")
 WORDS = ("estimator", "note", "hint", "reproduce")
 COLUMNS = ("model", "params", "check", "quantity", "where", "verdict", "bound", *NUMBERS, *WORDS)

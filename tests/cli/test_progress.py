@@ -1,0 +1,48 @@
+"""The progress bar: one for all threads, as wide as the terminal, none without stderr."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import sys
+import time
+from types import SimpleNamespace
+
+import pytest
+
+from montecarlo_brdf.cli import _progress
+
+
+def test_checks_side_by_side_share_a_progress_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second of two that came at once found a bar without a task."""
+    monkeypatch.setattr(_progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(_progress, "INTERVAL", 0.0)
+    monkeypatch.setenv("TERM", "xterm")
+    written: list[str] = []
+
+    def write(text: str) -> int:
+        before = len(written)
+        time.sleep(0.01)
+        assert len(written) == before  # nobody else wrote meanwhile
+        written.append(text)
+        return len(text)
+
+    terminal = SimpleNamespace(isatty=lambda: True, write=write, flush=lambda: 0)
+    monkeypatch.setattr(sys, "stderr", terminal)
+    with _progress.progress("test") as update, concurrent.futures.ThreadPoolExecutor(4) as pool:
+        for done in [pool.submit(update, 0.1 * k) for k in range(8)]:
+            done.result()
+    assert len(written) > 1 and written[-1] == _progress.ERASE
+    assert all(text.startswith(_progress.ERASE) for text in written)
+
+
+def test_a_progress_bar_is_no_wider_than_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert " 25% 9 s left" in _progress.line("furnace", 0.25, 3.0)
+    monkeypatch.setenv("COLUMNS", "20")
+    assert len(_progress.line("furnace", 0.25, 3.0)) < 20
+
+
+def test_no_progress_without_stderr(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(sys, "stderr", None)
+    with _progress.progress("test") as update:
+        update(0.5)
