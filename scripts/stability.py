@@ -16,8 +16,8 @@ from typing import Any
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.files import write_text
-from montecarlo_brdf.report.stress import reproduction
 from montecarlo_brdf.stability import arithmetic, designed
+from montecarlo_brdf.stability.claims import reproduction
 from montecarlo_brdf.stability.stress import Loss, loss
 
 ROOT = Path(__file__).parents[1]

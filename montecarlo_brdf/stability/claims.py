@@ -64,11 +64,16 @@ def _shown(model: Model, loss: Loss, found: Found | None) -> tuple[str | None, s
     if found is None:
         return None, None
     values = f"{loss.precision} gives {found.value:.9g}, the truth is {found.truth:.9g}"
+    return values, reproduction(model, loss.precision, found)
+
+
+def reproduction(model: Model, precision: str, found: Found) -> str:
+    """The command that evaluates this one point in every precision."""
     numbers = {n: repr(float(v)) for n, v in zip(found.p._fields, found.p, strict=True)}
     assignments = "".join(f" -p {n}={v}" for n, v in {**numbers, **model.picks}.items())
     point = ",".join(repr(float(x)) for x in (*found.wo, *found.wi))
-    subject = f"--model {model.name}{assignments} --precision {loss.precision}"
-    return values, f"brdf-check stress {subject} --at {point}"
+    subject = f"--model {model.name}{assignments} --precision {precision}"
+    return f"brdf-check stress {subject} --at {point}"
 
 
 def _safe(loss: Loss, name: str, value: float) -> Limit:
