@@ -8,9 +8,16 @@ from collections.abc import Iterable
 
 
 class UserError(Exception):
-    """A mistake in what was asked for: unknown name, bad value, missing file."""
+    """A mistake in what was asked for: unknown name, bad value, missing file.
+
+    about: the name whose value is wrong, where the mistake is in one.
+    """
 
     exit_code = 2
+
+    def __init__(self, sentence: str = "", about: str | None = None) -> None:
+        super().__init__(sentence)
+        self.about = about
 
 
 class ModelError(UserError):
@@ -33,7 +40,7 @@ class OutputError(UserError):
 
 def unknown(kind: str, name: object, allowed: Iterable[str]) -> str:
     """Sentence for a name that is not among `allowed`, with the nearest one if there is any."""
-    names = list(allowed)
+    names = [str(name) for name in allowed]  # enums by their values
     near = difflib.get_close_matches(str(name), names, n=1)
     guess = f"; did you mean {near[0]!r}?" if near else ""
     return f"no {kind} {str(name)!r}{guess} (choose from {', '.join(names) or 'none'})"

@@ -50,35 +50,8 @@ def load(spec: str, **picks: str) -> Model:
         namespace = vars(importlib.import_module(f"montecarlo_brdf.models.{spec}"))
     else:
         raise UserError(unknown("model", spec, names()) + ", or give the path of a .py file")
-    _check_declared(spec, namespace)
     model = build(spec, namespace, {}, built_in=spec in names())
     return model.variant(**picks) if picks else model
-
-
-#: What a model file may declare, and of what type.
-DECLARED: dict[str, Any] = {
-    "domain": Mapping, "choices": Mapping, "disclaims": Mapping, "verified": (list, tuple),
-    "kinks": (list, tuple), "same_as": str, "scales_with": str,
-}  # fmt: skip
-CALLED = {Mapping: "a dictionary", str: "a name", (list, tuple): "a list"}
-
-
-def _check_declared(spec: str, namespace: Mapping[str, Any]) -> None:
-    """Raise ModelError for a declaration that cannot mean anything."""
-    for name, kind in DECLARED.items():
-        value = namespace.get(name)
-        if value is not None and not isinstance(value, kind):
-            raise ModelError(f"{name} of model {spec} must be {CALLED[kind]}, not {value!r}")
-    params = namespace.get("Params")
-    if params is not None and not hasattr(params, "_fields"):
-        raise ModelError(f"Params of model {spec} must be a NamedTuple of numbers")
-    for name, options in (namespace.get("choices") or {}).items():
-        if not isinstance(options, Mapping) or not options:
-            raise ModelError(f"choices of model {spec} needs a dictionary of options for {name}")
-    for name, ends in (namespace.get("domain") or {}).items():
-        pair = isinstance(ends, list | tuple) and len(ends) == 2
-        if not pair or not all(isinstance(e, int | float) for e in ends):
-            raise ModelError(f"domain of model {spec} must give (low, high) for {name}")
 
 
 def _from_file(path: Path) -> types.ModuleType:
@@ -91,7 +64,7 @@ def _from_file(path: Path) -> types.ModuleType:
     module = types.ModuleType(path.stem)
     module.__file__ = str(path)
     try:
-        with _no_bytecode(), _known(module):
+        with _running(module):
             exec(_compiled(path), vars(module))  # noqa: S102
     except SyntaxError as error:
         raise ModelError(f"{path}, line {error.lineno or 1}: {error.msg}") from error
@@ -101,12 +74,16 @@ def _from_file(path: Path) -> types.ModuleType:
 
 
 @contextlib.contextmanager
-def _known(module: types.ModuleType) -> Iterator[None]:
-    """A module under its name while it runs, as dataclasses expect, unless another has the name."""
+def _running(module: types.ModuleType) -> Iterator[None]:
+    """While a module runs, it is known by its name, as dataclasses expect, unless another is; and
+    modules of the user's are read from their source: Python's own cache of them looks at seconds
+    and sizes, and misses an edit from 2.0 to 3.0 within the same second."""
     mine = sys.modules.setdefault(module.__name__, module) is module
+    before, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
         yield
     finally:
+        sys.dont_write_bytecode = before
         if mine:
             sys.modules.pop(module.__name__, None)
 
@@ -116,18 +93,6 @@ def _compiled(path: Path) -> types.CodeType:
         return compile(path.read_bytes(), str(path), "exec")
     except ValueError as error:  # what a null byte raises before Python 3.11.4
         raise SyntaxError(str(error)) from error
-
-
-@contextlib.contextmanager
-def _no_bytecode() -> Iterator[None]:
-    """Modules of the user's are read from their source: Python's own cache of them looks at
-    seconds and sizes, and misses an edit from 2.0 to 3.0 within the same second."""
-    before = sys.dont_write_bytecode
-    sys.dont_write_bytecode = True
-    try:
-        yield
-    finally:
-        sys.dont_write_bytecode = before
 
 
 def _member(spec: str, namespace: Mapping[str, Any], name: str) -> Mapping[str, Any]:

@@ -10,40 +10,26 @@ from __future__ import annotations
 import math
 import re
 import types
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.model import Model
-from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine, random_hemisphere_cosine
+from montecarlo_brdf.model import Model, ParameterSet, Prepared, Term, parameter_type
+from montecarlo_brdf.models._cosine import sample as cosine_sample
+from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine
+from montecarlo_brdf.vectors import Vec
 
-Function = Callable[..., Any]
+Plain = Callable[..., Any]
 
 FIRST: Any = None  # bound to the functions of one term
 REST: Any = None  # and to the mixture of the terms after it
-
-
-class Term(NamedTuple):
-    """One model of a mixture; its parameters are the mixture's fields that start with `prefix`."""
-
-    prefix: str
-    model: Model
-    weight: float
-
-    def parameters_of(self, p: Any) -> Any:
-        """The term's own parameter set within the mixture's."""
-        return self.model.Params(*(getattr(p, f) for f in self.fields()))
-
-    def fields(self) -> list[str]:
-        """The mixture's fields that are this term's parameters, in its own order."""
-        return [f"{self.prefix}_{n}" for n in self.model.Params._fields]  # type: ignore[attr-defined]
 
 
 class Last(NamedTuple):
     """Prepared parameters of the last term."""
 
     weight: float
-    first: Any
+    first: Prepared
 
 
 class Node(NamedTuple):
@@ -51,21 +37,21 @@ class Node(NamedTuple):
 
     weight: float
     choose: float
-    first: Any
-    rest: Any
+    first: Prepared
+    rest: Last | Node
 
 
-def f(wo: Any, wi: Any, p: Any) -> float:
+def f(wo: Vec, wi: Vec, p: Node) -> float:
     """weight f_1 + the rest."""
     return p.weight * FIRST(wo, wi, p.first) + REST(wo, wi, p.rest)
 
 
-def f_last(wo: Any, wi: Any, p: Any) -> float:
+def f_last(wo: Vec, wi: Vec, p: Last) -> float:
     """weight f_n."""
     return p.weight * FIRST(wo, wi, p.first)
 
 
-def sample(wo: Any, u: Any, p: Any) -> Any:
+def sample(wo: Vec, u: Vec, p: Node) -> Vec:
     """This term with probability `choose`, else one after it; u[2] is stretched to be used
     again."""
     if u[2] < p.choose:
@@ -74,28 +60,23 @@ def sample(wo: Any, u: Any, p: Any) -> Any:
     return REST(wo, (u[0], u[1], (u[2] - p.choose) / (1.0 - p.choose)), p.rest)
 
 
-def sample_last(wo: Any, u: Any, p: Any) -> Any:
+def sample_last(wo: Vec, u: Vec, p: Last) -> Vec:
     """The last term."""
     w = FIRST(wo, u, p.first)
     return w[0], w[1], w[2]
 
 
-def pdf(wo: Any, wi: Any, p: Any) -> float:
+def pdf(wo: Vec, wi: Vec, p: Node) -> float:
     """The density of the whole mixture."""
     return p.choose * FIRST(wo, wi, p.first) + (1.0 - p.choose) * REST(wo, wi, p.rest)
 
 
-def pdf_last(wo: Any, wi: Any, p: Any) -> float:
+def pdf_last(wo: Vec, wi: Vec, p: Last) -> float:
     """The density of the last term."""
     return FIRST(wo, wi, p.first)
 
 
-def cosine_sample(wo: Any, u: Any, p: Any) -> Any:
-    """For a term without a sampler."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def cosine_pdf(wo: Any, wi: Any, p: Any) -> float:
+def cosine_pdf(wo: Vec, wi: Vec, p: Prepared) -> float:
     """For a term without a sampler."""
     return pdf_hemisphere_cosine(wi)
 
@@ -143,22 +124,24 @@ def _named(terms: Sequence[tuple[float, Model]]) -> tuple[Term, ...]:
 def _assembled(terms: tuple[Term, ...], name: str) -> Model:
     choices = {f"{t.prefix}.{c}": options for t in terms for c, options in t.model.choices.items()}
     picks = {f"{t.prefix}.{c}": pick for t in terms for c, pick in t.model.picks.items()}
+    parameters = list(_parameters(terms))
+    defaults = {field: default for field, _, default, _ in parameters}
     samplers = [(t.model.sample, t.model.pdf) if t.model.pdf else (None, None) for t in terms]
     return Model(
         name=name,
         doc=f"{name}: a mixture, f = "
         + " + ".join(f"{t.prefix}.weight f_{t.prefix}" for t in terms),
         f=_chain([t.model.f for t in terms], f, f_last),
-        Params=_params(terms, picks),
+        Params=parameter_type(defaults, defaults, picks),
         sample=_chain([s or cosine_sample for s, _ in samplers], sample, sample_last),
         pdf=_chain([d or cosine_pdf for _, d in samplers], pdf, pdf_last),
         prepare=lambda p: _prepared(terms, p),
-        domain=_domain(terms),
+        domain={field: ends for field, _, _, ends in parameters if ends},
         choices=choices,
         disclaims={k: f"{t.prefix}: {v}" for t in terms for k, v in t.model.disclaims.items()},
         isotropic=all(t.model.isotropic for t in terms),
         picks=picks,
-        labels=_labels(terms),
+        labels={field: name for field, name, _, _ in parameters},
         terms=terms,
         rebuild=lambda new: _assembled(_varied(terms, new), name),
     )
@@ -173,7 +156,7 @@ def _varied(terms: tuple[Term, ...], picks: Mapping[str, str]) -> tuple[Term, ..
     return tuple(t._replace(model=t.model.variant(**own(t))) for t in terms)
 
 
-def _chain(functions: list[Any], link: Any, last: Any) -> Any:
+def _chain(functions: Sequence[Plain], link: Plain, last: Plain) -> Plain:
     """The functions of all terms in one: each link binds one and the chain after it."""
     chained = _bound(last, FIRST=functions[-1])
     for function in reversed(functions[:-1]):
@@ -181,40 +164,24 @@ def _chain(functions: list[Any], link: Any, last: Any) -> Any:
     return chained
 
 
-def _bound(template: Any, **names: Any) -> Any:
+def _bound(template: Plain, **names: Plain) -> Plain:
     return types.FunctionType(template.__code__, {**globals(), **names}, template.__name__)
 
 
-def _labels(terms: tuple[Term, ...]) -> dict[str, str]:
-    labels = {f"{t.prefix}_weight": f"{t.prefix}.weight" for t in terms}
+def _parameters(terms: tuple[Term, ...]) -> Iterator[tuple[str, str, float, Any]]:
+    """(field, name, default, range or None) of the weights, then of each term's parameters."""
     for t in terms:
-        labels |= {f: f"{t.prefix}.{f.removeprefix(t.prefix + '_')}" for f in t.fields()}
-    return labels
-
-
-def _params(terms: tuple[Term, ...], picks: Mapping[str, str]) -> type:
-    defaults = {f"{t.prefix}_weight": t.weight for t in terms}
+        yield f"{t.prefix}_weight", f"{t.prefix}.weight", t.weight, (0.0, 1e6)
     for t in terms:
-        defaults |= dict(zip(t.fields(), t.model.parameters(), strict=True))
-    made = NamedTuple("Params", [(name, float) for name in defaults])  # type: ignore[misc]
-    made.__new__.__defaults__ = tuple(defaults.values())
-    made._field_defaults = defaults
-    made.picks = dict(picks)  # type: ignore[attr-defined]
-    return made
+        for name, default in t.model.parameters()._asdict().items():
+            yield f"{t.prefix}_{name}", f"{t.prefix}.{name}", default, t.model.domain.get(name)
 
 
-def _domain(terms: tuple[Term, ...]) -> dict[str, tuple[float, float]]:
-    domain = {f"{t.prefix}_weight": (0.0, 1e6) for t in terms}
-    for t in terms:
-        domain |= {f"{t.prefix}_{n}": ends for n, ends in t.model.domain.items()}
-    return domain
-
-
-def _prepared(terms: tuple[Term, ...], p: Any) -> Any:
+def _prepared(terms: tuple[Term, ...], p: ParameterSet) -> Last | Node:
     """The chain of prepared parameters, built from its end."""
     weights = [getattr(p, f"{t.prefix}_weight") for t in terms]
     ready = [t.model.prepared(t.parameters_of(p)) for t in terms]
-    chain: Any = Last(weights[-1], ready[-1])
+    chain: Last | Node = Last(weights[-1], ready[-1])
     total = weights[-1]
     for weight, first in zip(reversed(weights[:-1]), reversed(ready[:-1]), strict=True):
         total += weight

@@ -9,14 +9,26 @@ The names and their meaning: docs/models.md.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections import namedtuple
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.vectors import Vec
 
-Function = Callable[..., Any]
+#: A NamedTuple of numbers, or of tuples of numbers: a colour, one number per channel.
+ParameterSet = NamedTuple
+#: The last argument of f, sample and pdf: what `prepare` makes of a parameter set, or the set
+#: itself. Its type is the model's own.
+Prepared = Any
+#: f and pdf, both in 1/sr: (wo, wi, p) -> number.
+Function = Callable[[Vec, Vec, Prepared], float]
+#: (wo, three uniform numbers, p) -> (x, y, z) or (x, y, z, weight).
+Sampler = Callable[[Vec, Vec, Prepared], tuple[float, ...]]
+#: What a choice offers: a function, or a mapping with functions, params, domain and disclaims.
+Option = Callable[..., Any] | Mapping[str, Mapping[str, Any]]
 
 
 class Property(StrEnum):
@@ -37,6 +49,36 @@ class NoParams(NamedTuple):
     """The parameters of a model that has none."""
 
 
+class Lobe(NamedTuple):
+    """Where a model's lobe sits, "mirror" or "half vector", and how wide it is: a GGX width."""
+
+    kind: str
+    width: Callable[[Any], float]
+
+
+class Limit(NamedTuple):
+    """Parameters to change, and the name of the model that this one becomes."""
+
+    changes: Mapping[str, float]
+    model: str
+
+
+class Term(NamedTuple):
+    """One model of a mixture; its parameters are the mixture's fields that start with `prefix`."""
+
+    prefix: str
+    model: Model
+    weight: float
+
+    def parameters_of(self, p: ParameterSet) -> ParameterSet:
+        """The term's own parameter set within the mixture's."""
+        return self.model.Params._make(getattr(p, f) for f in self.fields())
+
+    def fields(self) -> list[str]:
+        """The mixture's fields that are this term's parameters, in its own order."""
+        return [f"{self.prefix}_{n}" for n in self.model.Params._fields]
+
+
 @dataclass(frozen=True, eq=False)
 class Model:
     """A BRDF with everything that is known about it. Make one with `load`."""
@@ -44,28 +86,28 @@ class Model:
     name: str
     doc: str
     f: Function
-    Params: type = NoParams
-    sample: Function | None = None
+    Params: type[ParameterSet] = NoParams
+    sample: Sampler | None = None
     pdf: Function | None = None
-    prepare: Function | None = None
+    prepare: Callable[[Any], Prepared] | None = None
     domain: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    choices: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    choices: Mapping[str, Mapping[str, Option]] = field(default_factory=dict)
     disclaims: Mapping[str, str] = field(default_factory=dict)
-    verified: tuple[Any, ...] = ()
-    lossless: Any = False
-    albedo: Function | None = None
+    verified: tuple[ParameterSet, ...] = ()
+    lossless: bool | tuple[ParameterSet, ...] = False  # True: whatever the parameters
+    albedo: Callable[[float, Any], float] | None = None  # of cos(theta_o) and a parameter set
     same_as: str | None = None
     scales_with: str | None = None
     isotropic: bool = True
-    lobe: Any = None
+    lobe: Lobe | None = None
     kinks: tuple[str, ...] = ()
-    limits: tuple[Any, ...] = ()  # (changed parameters, the model that it becomes)
+    limits: tuple[Limit, ...] = ()
     built_in: bool = False
     picks: Mapping[str, str] = field(default_factory=dict)
     labels: Mapping[str, str] = field(default_factory=dict)  # field -> name, where they differ
-    terms: tuple[Any, ...] = ()  # of a mixture
+    terms: tuple[Term, ...] = ()  # of a mixture
     namespace: Mapping[str, Any] = field(default_factory=dict, repr=False)
-    rebuild: Function | None = field(default=None, repr=False)  # picks -> the variant
+    rebuild: Callable[[Mapping[str, str]], Model] | None = field(default=None, repr=False)
 
     def variant(self, **picks: str) -> Model:
         """The same model with other choices; the rest keep their current pick.
@@ -76,7 +118,8 @@ class Model:
             if category not in self.choices:
                 raise UserError(unknown(f"choice of model {self.name}", category, self.choices))
             if pick not in self.choices[category]:
-                raise UserError(unknown(category, pick, self.choices[category]))
+                options = self.choices[category]
+                raise UserError(unknown(category, pick, options), about=category)
         return self.rebuild({**self.picks, **picks}) if self.rebuild else self
 
     def parameters(self, **values: Any) -> Any:
@@ -88,21 +131,22 @@ class Model:
         """
         picks = {k: values.pop(k) for k in list(values) if k in self.choices}
         model = self.variant(**picks) if picks else self
-        names = model.Params._fields  # type: ignore[attr-defined]
+        names = model.Params._fields
         fields = {model.labels.get(n, n): n for n in names}
         for name in values:
             if name not in fields:
                 allowed = (*fields, *self.choices)
                 raise UserError(unknown(f"parameter of model {self.name}", name, allowed))
         checked = {fields[n]: model._checked(fields[n], v) for n, v in values.items()}
-        defaults = getattr(model.Params, "_field_defaults", {})
+        defaults = model.Params._field_defaults
         missing = [n for n in names if n not in checked and n not in defaults]
         if missing:
             raise UserError(f"model {self.name} needs a value for {', '.join(missing)}")
         floats = {n: float(v) for n, v in defaults.items()}
-        return model.Params(**{**floats, **checked})
+        values = {**floats, **checked}
+        return model.Params._make(values[n] for n in names)
 
-    def of(self, p: Any) -> Model:
+    def of(self, p: ParameterSet) -> Model:
         """The variant of this model that a parameter set belongs to.
 
         p: from `parameters`. Raises UserError if its choices are not this model's.
@@ -110,7 +154,7 @@ class Model:
         picks = getattr(type(p), "picks", self.picks)
         return self if picks == self.picks else self.variant(**picks)
 
-    def prepared(self, p: Any) -> Any:
+    def prepared(self, p: ParameterSet) -> Prepared:
         """What `f`, `sample` and `pdf` get for a parameter set.
 
         p: from `parameters`, of one channel. Raises what the model's own `prepare` raises.
@@ -128,11 +172,21 @@ class Model:
             number = math.nan
         if isinstance(value, bool) or not (math.isfinite(number) and low <= number <= high):
             name = self.labels.get(name, name)
-            raise UserError(f"{name} of model {self.name} must be {allowed}, not {value!r}")
+            sentence = f"{name} of model {self.name} must be {allowed}, not {value!r}"
+            raise UserError(sentence, about=name)
         return number
 
 
-def channels(p: Any) -> list[Any]:
+def parameter_type(
+    fields: Iterable[str], defaults: Mapping[str, float], picks: Mapping[str, str]
+) -> type[ParameterSet]:
+    """A NamedTuple of floats that knows to which variant of its model it belongs."""
+    made = cast(Any, namedtuple("Params", fields, defaults=map(float, defaults.values())))  # type: ignore
+    made.picks = dict(picks)
+    return cast(type[ParameterSet], made)
+
+
+def channels(p: ParameterSet) -> list[Any]:
     """The parameter sets of a colour, one per channel; a plain set is its own only channel."""
     widths = {len(v) for v in p if isinstance(v, tuple)}
     if len(widths) > 1:
@@ -140,4 +194,4 @@ def channels(p: Any) -> list[Any]:
             f"colours of one model need the same number of channels, not {sorted(widths)}"
         )
     count = widths.pop() if widths else 1
-    return [type(p)(*(v[k] if isinstance(v, tuple) else v for v in p)) for k in range(count)]
+    return [p._make(v[k] if isinstance(v, tuple) else v for v in p) for k in range(count)]

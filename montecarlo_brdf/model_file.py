@@ -1,51 +1,105 @@
-"""From the names that a model file defines to a Model: choices bound, the contract checked."""
+"""From the names that a model file defines to a Model: what they must be, and choices bound."""
 
 from __future__ import annotations
 
-import itertools
-import math
 import types
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError, unknown
-from montecarlo_brdf.model import Model, NoParams
+from montecarlo_brdf.model import Limit, Lobe, Model, NoParams, ParameterSet, parameter_type
+
+Namespace = Mapping[str, Any]
 
 
-def build(
-    name: str, namespace: Mapping[str, Any], picks: Mapping[str, str], built_in: bool
-) -> Model:
-    """A Model from the names defined in a model file, with one option picked per choice."""
-    choices = namespace.get("choices", {})
+class Rule(NamedTuple):
+    """What a member of a model file must be, as a test and in words, and what a Model keeps."""
+
+    fits: Callable[[Any], bool]
+    must: str
+    make: Callable[[Any], Any] = lambda value: value
+
+
+class Parts(NamedTuple):
+    """An option of a choice: what it binds, brings, and adds to domain and disclaims."""
+
+    functions: Mapping[str, Callable[..., Any]] = {}
+    params: Mapping[str, float] = {}
+    domain: Mapping[str, tuple[float, float]] = {}
+    disclaims: Mapping[str, str] = {}
+
+
+def _is(*kinds: type) -> Callable[[Any], bool]:
+    return lambda value: isinstance(value, kinds)
+
+
+def _is_pair(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) and len(value) == 2
+
+
+def _is_parameters(value: Any) -> bool:
+    defaults = getattr(value, "_field_defaults", None)
+    named = isinstance(value, type) and issubclass(value, tuple) and defaults is not None
+    return named and all(isinstance(v, (int, float)) for v in (defaults or {}).values())
+
+
+DICTIONARY = Rule(_is(Mapping), "a dictionary, not {!r}", dict)
+LIST = Rule(_is(list, tuple), "a list, not {!r}", tuple)
+NAME = Rule(_is(str), "a name, not {!r}")
+#: The functions of the contract and their arguments.
+FUNCTIONS = {"f": "(wo, wi, p)", "sample": "(wo, u, p)", "pdf": "(wo, wi, p)", "prepare": "(p)"}
+#: All other members.
+MEMBERS = {
+    "albedo": Rule(callable, "a function (cos_theta_o, p), not {!r}"),
+    "Params": Rule(_is_parameters, "a NamedTuple of numbers"),
+    "domain": DICTIONARY,
+    "choices": DICTIONARY,
+    "disclaims": DICTIONARY,
+    "verified": LIST,
+    "kinks": LIST,
+    "same_as": NAME,
+    "scales_with": NAME,
+    "isotropic": Rule(lambda value: True, "", bool),
+    "lossless": Rule(
+        _is(bool, list, tuple),
+        "True or a list of parameter sets, not {!r}",
+        lambda value: value if isinstance(value, bool) else tuple(value),
+    ),
+    "limits": Rule(
+        lambda value: isinstance(value, (list, tuple)) and all(map(_is_pair, value)),
+        "a list of (changed parameters, model), not {!r}",
+        lambda value: tuple(Limit(*pair) for pair in value),
+    ),
+    "lobe": Rule(
+        lambda value: _is_pair(value) and callable(value[1]),
+        "(kind, function of p), not {!r}",
+        lambda value: Lobe(*value),
+    ),
+}
+
+
+def build(name: str, namespace: Namespace, picks: Mapping[str, str], built_in: bool) -> Model:
+    """A Model from the names defined in a model file, with one option picked per choice.
+
+    Raises ModelError where a name does not stand for what it must.
+    """
+    given = _members_of(name, namespace)
+    choices = given.get("choices", {})
     picks = {c: picks.get(c, next(iter(options))) for c, options in choices.items()}
-    options = [_option(c, choices[c][pick]) for c, pick in picks.items()]
-    bound = _rebound(namespace, {k: v for o in options for k, v in o["functions"].items()})
-    _check_params(name, bound.get("Params", NoParams))
-    params = _params_of(bound, options, picks)
-    domain = dict(bound.get("domain", {}))
-    disclaims = dict(bound.get("disclaims", {}))
-    for option in options:
-        domain.update(option["domain"])
-        disclaims.update(option["disclaims"])
-    _check_arguments(name, bound)
-    _check_domain(name, domain)
+    options = [_parts(c, choices[c][pick]) for c, pick in picks.items()]
+    bound = _rebound(namespace, {k: v for o in options for k, v in o.functions.items()})
+    given |= {k: bound[k] for k in (*FUNCTIONS, "albedo") if k in given}
+    given["Params"] = params = _params_of(given.get("Params", NoParams), options, picks)
+    for member in ("domain", "disclaims"):
+        added = [getattr(option, member) for option in options]
+        given[member] = {k: v for each in (given.get(member, {}), *added) for k, v in each.items()}
+    _check_domain(name, given["domain"])
     if not choices:  # of which each brings parameters of its own
-        _check_known(name, domain, params)
-    optional = ("sample", "pdf", "prepare", "albedo", "same_as", "scales_with", "lobe")
-    given: dict[str, Any] = {k: bound.get(k) for k in optional}
+        _known(f"parameter of model {name}", "domain", given["domain"], params._fields)
+    given["domain"] = {k: v for k, v in given["domain"].items() if k in params._fields}
     return Model(
         name=name,
         doc=str(namespace.get("__doc__") or ""),
-        f=bound["f"],
-        Params=params,
-        domain={k: v for k, v in domain.items() if k in params._fields},  # type: ignore[attr-defined]
-        choices=choices,
-        disclaims=disclaims,
-        verified=tuple(bound.get("verified", ())),
-        lossless=bound.get("lossless", False),
-        isotropic=bool(bound.get("isotropic", True)),
-        kinks=tuple(bound.get("kinks", ())),
-        limits=tuple(bound.get("limits", ())),
         built_in=built_in,
         picks=picks,
         namespace=namespace,
@@ -54,14 +108,59 @@ def build(
     )
 
 
-def _option(category: str, option: Any) -> dict[str, Any]:
-    """An option in its long form: functions to bind, parameters that it brings, their domain."""
-    if not isinstance(option, Mapping):
-        option = {"functions": {category: option}}
-    return {"functions": {}, "params": {}, "domain": {}, "disclaims": {}, **option}
+def _members_of(name: str, namespace: Namespace) -> dict[str, Any]:
+    """The members that a file has. Raises ModelError for one that is not what it must be: the only
+    check there is, for built-in files and others."""
+    given: dict[str, Any] = {k: namespace.get(k) for k in (*MEMBERS, *FUNCTIONS)}
+    given = {k: v for k, v in given.items() if v is not None}
+    for member, rule in MEMBERS.items():
+        if member in given and not rule.fits(given[member]):
+            raise ModelError(f"{member} of model {name} must be {rule.must.format(given[member])}")
+    given = {k: MEMBERS[k].make(v) if k in MEMBERS else v for k, v in given.items()}
+    for category, options in given.get("choices", {}).items():
+        _check_options(name, category, options)
+    for member in FUNCTIONS:
+        if member == "f" or member in given:
+            _check_arguments(name, member, given.get(member))
+    return given
 
 
-def _rebound(namespace: Mapping[str, Any], names: Mapping[str, Any]) -> Mapping[str, Any]:
+def _check_options(name: str, category: str, options: Any) -> None:
+    if not isinstance(options, Mapping) or not options:
+        raise ModelError(f"choices of model {name} needs a dictionary of options for {category}")
+    for pick, option in options.items():
+        parts = option if isinstance(option, Mapping) else ()
+        _known("part of an option", f"{category}={pick} of model {name}", parts, Parts._fields)
+
+
+def _check_arguments(name: str, member: str, value: Any) -> None:
+    function, arguments = getattr(value, "py_func", value), FUNCTIONS[member]
+    if not isinstance(function, types.FunctionType):
+        raise ModelError(f"model {name} needs a function {member}{arguments}")
+    if function.__code__.co_argcount != arguments.count(",") + 1:
+        raise ModelError(f"{member} of model {name} must take the arguments {arguments}")
+
+
+def _check_domain(name: str, domain: Mapping[str, Any]) -> None:
+    for parameter, ends in domain.items():
+        numbers = _is_pair(ends) and all(isinstance(e, (int, float)) for e in ends)
+        if not (numbers and ends[0] <= ends[1]):
+            raise ModelError(
+                f"domain of model {name} must give (low, high) for {parameter}, not {ends!r}"
+            )
+
+
+def _known(kind: str, where: str, given: Iterable[str], allowed: tuple[str, ...]) -> None:
+    for word in given:
+        if word not in allowed:
+            raise ModelError(f"{where}: {unknown(kind, word, allowed)}")
+
+
+def _parts(category: str, option: Any) -> Parts:
+    return Parts(**option) if isinstance(option, Mapping) else Parts({category: option})
+
+
+def _rebound(namespace: Namespace, names: Mapping[str, Callable[..., Any]]) -> Namespace:
     """A copy of a module in which `names` stand for the functions picked, in every function."""
     if not names:
         return namespace
@@ -75,66 +174,18 @@ def _rebound(namespace: Mapping[str, Any], names: Mapping[str, Any]) -> Mapping[
 
 
 def _params_of(
-    bound: Mapping[str, Any], options: list[dict[str, Any]], picks: Mapping[str, str]
-) -> type:
+    own: type[ParameterSet], options: list[Parts], picks: Mapping[str, str]
+) -> type[ParameterSet]:
     """The file's own Params, or for a model with choices a NamedTuple of its and their fields."""
-    own = bound.get("Params", NoParams)
     if not picks:
         return own
-    extra = dict(itertools.chain.from_iterable(o["params"].items() for o in options))
-    fields = [(n, float) for n in (*own._fields, *(e for e in extra if e not in own._fields))]
-    made = NamedTuple("Params", fields)  # type: ignore[misc]
-    defaults = {**own._field_defaults, **extra}
-    made.__new__.__defaults__ = tuple(float(defaults[n]) for n, _ in fields)
-    made._field_defaults = {n: float(defaults[n]) for n, _ in fields}
-    made.picks = dict(picks)  # type: ignore[attr-defined]
-    return made
+    extra = {k: v for option in options for k, v in option.params.items()}
+    return parameter_type(
+        dict.fromkeys((*own._fields, *extra)), {**own._field_defaults, **extra}, picks
+    )
 
 
-def _check_params(name: str, params: Any) -> None:
-    """Params is a NamedTuple of numbers."""
-    fields = getattr(params, "_fields", None)
-    defaults = getattr(params, "_field_defaults", {})
-    numbers = all(isinstance(v, (int, float)) for v in defaults.values())
-    if not isinstance(params, type) or fields is None or not numbers:
-        raise ModelError(f"Params of model {name} must be a NamedTuple of numbers")
-
-
-def _check_domain(name: str, domain: Mapping[str, Any]) -> None:
-    """domain maps a name to (low, high)."""
-    for field_name, bounds in domain.items():
-        try:
-            low, high = map(float, bounds)
-        except (TypeError, ValueError):
-            low, high = math.nan, math.nan
-        if not low <= high:
-            raise ModelError(
-                f"domain of model {name} must give {field_name} as (low, high), not {bounds!r}"
-            )
-
-
-def _check_known(name: str, domain: Mapping[str, Any], params: Any) -> None:
-    """domain names parameters only."""
-    for field_name in domain:
-        if field_name not in params._fields:
-            problem = unknown(f"parameter of model {name}", field_name, params._fields)
-            raise ModelError(f"domain: {problem}")
-
-
-def _check_arguments(name: str, bound: Mapping[str, Any]) -> None:
-    """Every function of the contract takes the arguments that the contract says."""
-    contract = {"f": "(wo, wi, p)", "sample": "(wo, u, p)", "pdf": "(wo, wi, p)", "prepare": "(p)"}
-    for member, arguments in contract.items():
-        function = getattr(bound.get(member), "py_func", bound.get(member))
-        if function is None and member != "f":
-            continue
-        if not isinstance(function, types.FunctionType):
-            raise ModelError(f"model {name} needs a function {member}{arguments}")
-        if function.__code__.co_argcount != arguments.count(",") + 1:
-            raise ModelError(f"{member} of model {name} must take the arguments {arguments}")
-
-
-def members(namespace: Mapping[str, Any]) -> Iterator[str]:
+def members(namespace: Namespace) -> Iterator[str]:
     """Names in a file that could be a model: its own functions (wo, wi, p) and classes with f."""
     for key, value in namespace.items():
         own = getattr(value, "__module__", None) == namespace.get("__name__")

@@ -57,6 +57,16 @@ class Estimate(NamedTuple):
         square = self.mean * self.mean
         return self.samples * square / self.second_moment if self.second_moment else 0.0
 
+    def times(self, factor: float) -> Estimate:
+        """The estimate of `factor` > 0 times the mean."""
+        return self._replace(
+            mean=factor * self.mean,
+            stderr=factor * self.stderr,
+            replicates=tuple(factor * m for m in self.replicates),
+            second_moment=factor * factor * self.second_moment,
+            largest=factor * self.largest,
+        )
+
     def __str__(self) -> str:
         return with_error(self.mean, self.stderr)
 

@@ -33,12 +33,6 @@ def normalised(a: Vec) -> Vec:
     return a[0] * s, a[1] * s, a[2] * s
 
 
-def from_angles(theta: float, phi: float) -> Vec:
-    """Unit vector at polar angle theta from n and azimuth phi (radians)."""
-    s = math.sin(theta)
-    return s * math.cos(phi), s * math.sin(phi), math.cos(theta)
-
-
 def from_degrees(theta_deg: float, phi_deg: float = 0.0) -> Vec:
     """Unit vector at (theta, phi) in degrees.
 
@@ -50,11 +44,6 @@ def from_degrees(theta_deg: float, phi_deg: float = 0.0) -> Vec:
     s, c = (math.cos(rest), math.sin(rest)) if steep else (math.sin(rest), math.cos(rest))
     phi = math.radians(phi_deg)
     return s * math.cos(phi), s * math.sin(phi), c
-
-
-def to_angles(a: Vec) -> tuple[float, float]:
-    """(theta, phi) of a vector of any length, by atan2: acos loses half the digits at the pole."""
-    return math.atan2(math.hypot(a[0], a[1]), a[2]), math.atan2(a[1], a[0])
 
 
 def mirrored(a: Vec) -> Vec:
@@ -89,19 +78,3 @@ def tangent_frame(n: Vec) -> tuple[Vec, Vec]:
     b = n[0] * n[1] * a
     tangent = (1.0 + sign * n[0] * n[0] * a, sign * b, -sign * n[0])
     return tangent, (b, sign + n[1] * n[1] * a, -n[1])
-
-
-def to_world(a: Vec, n: Vec) -> Vec:
-    """Vector `a` given in the tangent frame of `n`, in world coordinates."""
-    t, b = tangent_frame(n)
-    return (
-        a[0] * t[0] + a[1] * b[0] + a[2] * n[0],
-        a[0] * t[1] + a[1] * b[1] + a[2] * n[1],
-        a[0] * t[2] + a[1] * b[2] + a[2] * n[2],
-    )
-
-
-def to_tangent(a: Vec, n: Vec) -> Vec:
-    """World vector `a` in the tangent frame of `n`: the inverse of `to_world`."""
-    t, b = tangent_frame(n)
-    return dot(a, t), dot(a, b), dot(a, n)

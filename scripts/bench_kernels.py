@@ -23,11 +23,13 @@ import numpy as np
 from environment import describe
 
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.compile import compiler, kernel, native
-from montecarlo_brdf.compile.layout import Layout, pack, unpacker
-from montecarlo_brdf.estimate import integrands, moments
-from montecarlo_brdf.estimate.recipe import Recipe
+from montecarlo_brdf.compile import kernel, native
+from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.layout import Layout, Unpack, pack
+from montecarlo_brdf.estimate import moments
+from montecarlo_brdf.estimate.quantity import Quantity, integrand
 from montecarlo_brdf.sampling import points
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.sampling.keys import NONE, replicate_key
 
 COUNT = 1 << 17
@@ -41,8 +43,8 @@ BOUNDS = {
     "kernel / one running sum, at most": 1.15,
 }
 
-INTEGRAND: Any = None
-PARAMETERS: Any = None
+INTEGRAND: Any = hole()
+PARAMETERS: Any = hole()
 Timed = Callable[[], None]
 
 
@@ -102,23 +104,19 @@ def layout_of(channels: int) -> tuple[Layout, list[float]]:
 def ours(point_set: str, channels: int = 1) -> Timed:
     """The real kernel."""
     layout, numbers = layout_of(channels)
-    recipe = Recipe(point_set, (integrands.albedo_cosine,), {"F": f}, layout)
-    return call(kernel.kernel_of(recipe), numbers, channels)
+    mean = integrand(Quantity.ALBEDO, Sampler.COSINE, {"F": f})
+    return call(moments.kernel_of("", point_set, [mean], layout).entry, numbers, channels)
 
 
 def simplest() -> Timed:
     """`running_sum`, compiled as kernels are."""
     layout, numbers = layout_of(1)
-    special = kernel.specialiser(compiler.part)
-    bound = {
-        "INTEGRAND": special.bind(integrands.albedo_cosine, {"F": f}),
-        "PARAMETERS": unpacker(layout),
-    }
-    image = numba.compile_function(special.clone(running_sum, bound))  # type: ignore[arg-type]
-    return call(native.load(image), numbers, 1)
+    mean = integrand(Quantity.ALBEDO, Sampler.COSINE, {"F": f}).template
+    made = kernel.kernel("", running_sum, INTEGRAND=mean, PARAMETERS=Unpack(layout))
+    return call(made.entry, numbers, 1)
 
 
-def call(entry: native.NativeKernel, numbers: list[float], channels: int) -> Timed:
+def call(entry: native.Entry, numbers: list[float], channels: int) -> Timed:
     """A call without arguments, so that nothing but the kernel is timed."""
     ints = (ctypes.c_int64 * 10)(1, 0, 1, 0, COUNT, *NONE)
     reals = (ctypes.c_double * (4 + len(numbers)))(0.6, 0.0, 0.8, 0.0, *numbers)

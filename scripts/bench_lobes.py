@@ -19,8 +19,7 @@ from typing import Any
 from environment import describe
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.compile.kernel import compiled
-from montecarlo_brdf.estimate import methods, work
+from montecarlo_brdf.estimate import adaptive, work
 from montecarlo_brdf.sampling.points import SHAPES
 from montecarlo_brdf.vectors import from_degrees
 
@@ -43,9 +42,9 @@ def per_sample(name: str) -> float:
     """Nanoseconds in the chart, at many samples."""
     model = MODELS[name]
     p = model.parameters()
-    made = methods.prepare(model, p, type(p), methods.methods(model)[0])
+    made = adaptive.prepare(model, p, type(p), adaptive.methods(model)[0])
     reals = (*from_degrees(60.0), made.width, *made.numbers)
-    entry = compiled(made.model, made.means)
+    entry = made.means()
     shape = SHAPES["lattice"](SIZE)
     began = time.perf_counter()
     work.run(work.Job(entry, reals, 1, SIZE, REPLICATES, SIZE, shape))

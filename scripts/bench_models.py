@@ -23,9 +23,10 @@ from environment import describe
 from montecarlo_brdf import load, loading
 from montecarlo_brdf.compile import compiler, kernel
 from montecarlo_brdf.compile.layout import pack
-from montecarlo_brdf.estimate import integrands, moments
-from montecarlo_brdf.estimate.recipe import Recipe
+from montecarlo_brdf.estimate import moments
+from montecarlo_brdf.estimate.quantity import Quantity, integrand
 from montecarlo_brdf.model import channels
+from montecarlo_brdf.sampling.directions import Sampler
 
 SAMPLES = 1 << 17
 ROUNDS = 300  # a busy neighbour takes seconds of every minute: the best of all must have missed it
@@ -43,13 +44,23 @@ def calibration(wo: Any, wi: Any, p: Any) -> float:
     return (1.0 + p.a * wi[0] + 0.2 * wi[1] + 0.1 * wi[0] * wi[1]) / math.pi
 
 
-def recipe(f: Callable[..., float], sets: list[Any]) -> tuple[Recipe, list[float]]:
+class Made(NamedTuple):
+    """A kernel, its numbers and the parameter sets that it takes at once."""
+
+    kernel: kernel.Kernel
+    numbers: list[float]
+    channels: int
+
+
+def recipe(f: Callable[..., float], sets: list[Any]) -> Made:
     """The cosine-sampled albedo kernel of f."""
     layout, numbers = pack(sets, moments.QUERY)
-    return Recipe("independent", (integrands.albedo_cosine,), {"F": f}, layout), numbers
+    mean = integrand(Quantity.ALBEDO, Sampler.COSINE, {"F": f})
+    made = moments.kernel_of("", "independent", [mean], layout)
+    return Made(made, numbers, len(layout.places))
 
 
-def prepared(name: str, **values: Any) -> tuple[Recipe, list[float]]:
+def prepared(name: str, **values: Any) -> Made:
     """The same for a model by name; an exponent is not a whole number."""
     model = load(name)
     names = model.Params._fields  # type: ignore[attr-defined]
@@ -57,9 +68,9 @@ def prepared(name: str, **values: Any) -> tuple[Recipe, list[float]]:
     return recipe(model.f, [model.prepared(c) for c in channels(p)])
 
 
-def caller(made: Recipe, numbers: list[float]) -> Callable[[], float]:
+def caller(made: Made) -> Callable[[], float]:
     """A function that runs the kernel once and returns the seconds."""
-    entry = kernel.kernel_of(made)
+    entry, numbers = made.kernel.entry, made.numbers
     ints = (ctypes.c_int64 * 10)(12345, 0, 1, 0, SAMPLES)
     reals = (ctypes.c_double * (moments.QUERY + len(numbers)))(0.6, 0.0, 0.8, 0.0, *numbers)
     out = (ctypes.c_double * (moments.STATE * made.channels))()
@@ -72,9 +83,9 @@ def caller(made: Recipe, numbers: list[float]) -> Callable[[], float]:
     return once
 
 
-def mix(made: Recipe) -> dict[str, int]:
+def mix(made: Made) -> dict[str, int]:
     """Counts of instructions in the kernel's machine code."""
-    text = compiler.assembly(made.assemble(kernel.specialiser(compiler.part)))
+    text = compiler.assembly(made.kernel.assembled())
     return {
         "calls": len(re.findall(r"^\s+call", text, re.M)),
         "zmm": len(re.findall(r"^\s+v\w+pd.*zmm", text, re.M)),
@@ -89,12 +100,12 @@ def main() -> None:
     recipes = {"calibration": recipe(calibration, [Slope()])}
     recipes |= {name: prepared(name) for name in loading.names()}
     recipes["colour"] = prepared(COLOUR[0], **COLOUR[1])
-    timers = {name: caller(*r) for name, r in recipes.items()}
+    timers = {name: caller(r) for name, r in recipes.items()}
     best = {name: min(t() for _ in range(3)) for name, t in timers.items()}
     for _ in range(ROUNDS):
         for name, t in timers.items():
             best[name] = min(best[name], t())
-    rows = {n: row(n, best, recipes[n][0]) for n in best}
+    rows = {n: row(n, best, recipes[n]) for n in best}
     ratio = best["colour"] / best[COLOUR[0]]
     print(f"three channels of {COLOUR[0]} / one: {ratio:.2f} (at most {COLOUR[2]})")
     if sys.argv[1:]:
@@ -103,7 +114,7 @@ def main() -> None:
             json.dump(result, file, indent=1)
 
 
-def row(name: str, best: dict[str, float], made: Recipe) -> dict[str, Any]:
+def row(name: str, best: dict[str, float], made: Made) -> dict[str, Any]:
     """Print and return one model's figures."""
     ratio = best[name] / best["calibration"]
     found: dict[str, Any] = {"ns": best[name] / SAMPLES * 1e9, "ratio": ratio, **mix(made)}

@@ -20,7 +20,7 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading
-from montecarlo_brdf.scene.make import scene_of
+from montecarlo_brdf.scene.read import scene_of
 from montecarlo_brdf.scene.render import render
 
 RUNS = 7

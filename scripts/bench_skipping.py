@@ -16,10 +16,9 @@ from typing import Any
 import montecarlo_brdf as mb
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import plan, radiance, skies
-from montecarlo_brdf.scene.lights import Directional
 from montecarlo_brdf.scene.plan import Share, Work
-from montecarlo_brdf.scene.scene import Scene
-from montecarlo_brdf.scene.sky_tables import cap_of
+from montecarlo_brdf.scene.scene import Directional, Scene
+from montecarlo_brdf.scene.skies import cap_of
 from montecarlo_brdf.scene.surface import Surface, lobes_of
 from montecarlo_brdf.vectors import from_degrees
 

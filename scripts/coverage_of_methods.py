@@ -25,8 +25,7 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading, references
-from montecarlo_brdf.compile.kernel import compiled
-from montecarlo_brdf.estimate import methods, trust, work
+from montecarlo_brdf.estimate import adaptive, trust, work
 from montecarlo_brdf.estimate.ascent import Ascent
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import measured
@@ -59,18 +58,17 @@ def cases(name: str) -> Iterator[tuple[Any, Any, float]]:
             yield model, model.parameters(**p._asdict()), theta
 
 
-def drawn(setting: methods.Setting, wo: Any, size: int, seeds: int) -> list[Estimate]:
+def drawn(setting: adaptive.Setting, wo: Any, size: int, seeds: int) -> list[Estimate]:
     """Estimates of 16 replicates each, with the error bars that reports show."""
-    points = setting.means.points
+    points = setting.method.points
     shape = SHAPES[points](size) if points in SHAPES else NONE
     reals = (*wo, setting.width, *setting.numbers)
-    entry = compiled(setting.model, setting.means)
-    rows = work.run(work.Job(entry, reals, 1, size, REPLICATES * seeds, size, shape))[0]
+    rows = work.run(work.Job(setting.means(), reals, 1, size, REPLICATES * seeds, size, shape))[0]
     return [estimate(rows[i : i + REPLICATES]) for i in range(0, len(rows), REPLICATES)]
 
 
 def coverage(
-    setting: methods.Setting,
+    setting: adaptive.Setting,
     demanded: float,
     sight: Any,
     wo: Any,
@@ -91,7 +89,7 @@ def coverage(
     return sum(abs(e.mean - truth.value) <= e.half_width(0.05) + truth.error for e in found) / seeds
 
 
-def need(setting: methods.Setting, wo: Any) -> float:
+def need(setting: adaptive.Setting, wo: Any) -> float:
     """Samples of a replicate that the probe demands."""
     ascent = Ascent(setting, wo, Plan(target_error=0.5, replicates=REPLICATES), math.inf)
     ascent.look(1)
@@ -107,8 +105,8 @@ def look(model: Any, p: Any, theta: float, seeds: int) -> Iterator[dict[str, Any
     truth = truth._replace(error=truth.error + FITTED.get(model.name, 0.0) * truth.value)
     case = {"model": model.name, "p": p._asdict(), "theta_o": theta}
     sight = trust.look(variant, p, wo)
-    for method in methods.methods(variant):
-        setting = methods.prepare(variant, p, type(p), method)
+    for method in adaptive.methods(variant):
+        setting = adaptive.prepare(variant, p, type(p), method)
         demanded = need(setting, wo)
         found = {
             REPLICATES * n: coverage(setting, demanded, sight, wo, truth, n, seeds) for n in SIZES

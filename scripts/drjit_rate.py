@@ -24,9 +24,8 @@ import mitsuba as mi
 from environment import describe
 
 mi.set_variant("llvm_ad_mono")
+from bench.throughput import cosine_job  # noqa: E402
 from drjit.llvm import PCG32, UInt64  # noqa: E402
-
-from montecarlo_brdf.bench.throughput import cosine_job  # noqa: E402
 
 TARGET = Path(__file__).parent / "results" / "drjit_rate.json"
 N = 1 << 20

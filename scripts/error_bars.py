@@ -26,9 +26,11 @@ from montecarlo_brdf.checks import _truth
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.samplers import integrand, integrand_name, query
-from montecarlo_brdf.estimate.subject import subject_of
+from montecarlo_brdf.estimate.quantity import Quantity, second_moment
+from montecarlo_brdf.estimate.samplers import BLIND, integrand, query
+from montecarlo_brdf.estimate.subject import functions_of, subject_of
 from montecarlo_brdf.judge.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import from_degrees
 
 TARGET = Path(__file__).parent / "results" / "error_bars.json"
@@ -77,7 +79,7 @@ def asked(name: str, parameters: dict[str, float], theta: float, sampler: str) -
     one = model.parameters(**parameters)
     known = _truth.albedo(model, one, theta)
     assert known
-    function = integrand(integrand_name(model, "albedo", sampler))
+    function = integrand(model, Quantity.ALBEDO, sampler)
     wo = query(model, one, from_degrees(theta))
     q = replicates.Question(subject_of(model, one), wo, [function], ("coverage", sampler))
     return Asked(model, one, theta, sampler, q, known.value, known.error)
@@ -147,10 +149,10 @@ def confirmation(a: Asked, each: int, runs: int) -> dict[str, float]:
 def unfit(a: Asked, points: str) -> str | None:
     """What the judge says of the estimator at its first look."""
     wo = from_degrees(a.theta)
-    names = [integrand_name(a.model, "albedo", a.sampler)]
-    both = a.sampler in trust.SCALE and a.model.sample and a.model.pdf
-    names += [f"second_{a.sampler}"] if both else []
-    row = estimates(a.model, a.one, wo, names, Plan(points, 1 << 14), ("coverage",))[0]
+    means = [integrand(a.model, Quantity.ALBEDO, a.sampler)]
+    both = a.sampler in BLIND and a.model.sample and a.model.pdf
+    means += [second_moment(Sampler(a.sampler), functions_of(a.model))] if both else []
+    row = estimates(a.model, a.one, wo, means, Plan(points, 1 << 14), ("coverage",))[0]
     sight = trust.look(a.model, a.one, wo)
     return trust.reason_unfit(a.sampler, row[0], sight, row[1] if both else None)
 

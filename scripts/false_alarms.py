@@ -35,13 +35,15 @@ from montecarlo_brdf import loading
 from montecarlo_brdf.cases.case import Case, pointwise
 from montecarlo_brdf.checks import _truth, radiance, sampling
 from montecarlo_brdf.checks._cells import Cells
-from montecarlo_brdf.estimate import integrands, trust
+from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quadrature import Coordinates, integrate
-from montecarlo_brdf.estimate.samplers import integrand_name, query, samplers_of
-from montecarlo_brdf.estimate.subject import subject_of
+from montecarlo_brdf.estimate.quantity import Quantity, second_moment
+from montecarlo_brdf.estimate.samplers import BLIND, integrand, query, samplers_of
+from montecarlo_brdf.estimate.subject import functions_of, subject_of
 from montecarlo_brdf.judge.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import from_degrees
 
 ROOT = Path(__file__).parents[1]
@@ -94,13 +96,13 @@ def _claim(
     model: Any, one: Any, wo: Any, kind: str, expected: float, error: float, **sky: Any
 ) -> Claim:
     chosen = list(samplers_of(model))
-    functions = [getattr(integrands, integrand_name(model, kind, s)) for s in chosen]
-    blind = [s for s in chosen if s in trust.SCALE]
+    means = [integrand(model, Quantity(kind), s, **sky) for s in chosen]
+    blind = [s for s in chosen if s in BLIND]
     seconds = blind if kind == "albedo" and model.sample and model.pdf else []
-    functions += [getattr(integrands, f"second_{s}") for s in seconds]
+    means += [second_moment(s, functions_of(model)) for s in seconds]
     fixed = (*wo, radiance.WHICH["tilted"]) if sky else query(model, one, wo)
-    q = replicates.Question(subject_of(model, one, **sky), fixed, functions, ("false alarms", kind))
-    row = evaluate(q.subject, q.fixed, functions, Plan(samples=SAMPLES), q.label)[0]
+    q = replicates.Question(subject_of(model, one), fixed, means, ("false alarms", kind))
+    row = evaluate(q.subject, q.fixed, means, Plan(samples=SAMPLES), q.label)[0]
     sight = trust.look(model, one, wo)
     moments = dict(zip(seconds, row[len(chosen) :], strict=True))
     fit = [
@@ -116,7 +118,8 @@ def _rejected(model: Any, one: Any, wo: Any) -> Claim:
     coordinates = Coordinates(direction, _truth.lobe_scale(model, one, direction))
     found = integrate(lambda wi: pointwise(model, one).pdf(direction, wi), coordinates, 1e-11)
     label = ("false alarms", "rejected")
-    q = replicates.Question(subject_of(model, one), wo, [integrands.rejected_own], label)
+    lost = integrand(model, Quantity.REJECTED, Sampler.OWN)
+    q = replicates.Question(subject_of(model, one), wo, [lost], label)
     return Claim("rejected", q, ["own"], 1.0, found.error, [True], known=found.value)
 
 

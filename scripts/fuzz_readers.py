@@ -32,7 +32,7 @@ with atheris.instrument_imports(include=["montecarlo_brdf", "tomllib"]):
     from montecarlo_brdf.estimate.partial_sums import PartialSums
     from montecarlo_brdf.files import write_text
     from montecarlo_brdf.report import baseline, read
-    from montecarlo_brdf.scene import image, image_sky, make
+    from montecarlo_brdf.scene import images, texels
     from montecarlo_brdf.scene import read as read_scenes
 
 ROOT = Path(__file__).parents[1]
@@ -60,7 +60,7 @@ def _report(path: Path) -> None:
 
 def _image(suffix: str) -> Callable[[Path], None]:
     def reader(path: Path) -> None:
-        image_sky.texel_sky(image.read_image(path.rename(path.with_suffix(suffix))))
+        texels.texel_sky(images.read_image(path.rename(path.with_suffix(suffix))))
 
     return reader
 
@@ -84,7 +84,7 @@ def _sky(path: Path) -> None:
     model = loading.load("lambert")
     sky = text(path.read_bytes())
     if not sky.startswith("image"):
-        make.scene_of(model, model.parameters(), sky)
+        read_scenes.scene_of(model, model.parameters(), sky)
 
 
 #: reader -> how it is called, and inputs to start from

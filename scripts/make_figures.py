@@ -11,8 +11,9 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+from bench.picture import bench_figure
+
 import montecarlo_brdf as mb
-from montecarlo_brdf.report.bench_plots import bench_figure
 from montecarlo_brdf.report.plots import plot, save
 from montecarlo_brdf.verify.converge import converge
 

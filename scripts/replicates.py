@@ -12,13 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy import stats
 
-from montecarlo_brdf.compile.kernel import compiled
 from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.estimate import moments
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.recipe import Recipe
-from montecarlo_brdf.estimate.samplers import suited_to
+from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.estimate.subject import Subject
 from montecarlo_brdf.estimate.work import Ladder
 from montecarlo_brdf.sampling.points import NONE, SHAPES
@@ -34,7 +32,7 @@ class Question(NamedTuple):
 
     subject: Subject
     fixed: tuple[float, ...]
-    integrands: Sequence[Any]
+    integrands: Sequence[Integrand]
     label: tuple[Any, ...]
 
 
@@ -42,9 +40,8 @@ def means(q: Question, points: str, count: int, seed: int = 0, each: int = EACH)
     """Means and mean squared deviations of `count` replicates of `each` samples: (integrands, 2,
     count)."""
     layout, numbers = pack(q.subject.sets, moments.QUERY)
-    suited = tuple(suited_to(points, f) for f in q.integrands)
-    recipe = Recipe(points, suited, q.subject.functions, layout)
-    entry = compiled(q.subject.identity[0], recipe)
+    suited = [i.for_lattice() if points == "lattice" else i for i in q.integrands]
+    entry = moments.kernel_of(q.subject.identity[0], points, suited, layout)
     reals = (*(*q.fixed, 0.0)[: moments.QUERY], *numbers)
     key = stream(seed, points, *q.subject.identity, *q.label, *q.fixed)
     shape = SHAPES[points](each) if points in SHAPES else NONE

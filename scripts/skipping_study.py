@@ -17,7 +17,7 @@ from environment import describe
 
 from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.scene import claims, radiance
+from montecarlo_brdf.scene import plan, radiance
 from montecarlo_brdf.scene.read import read_scene
 from montecarlo_brdf.vectors import from_degrees
 
@@ -93,7 +93,7 @@ def compared(text: str, theta: float, folder: Path) -> list[tuple[str, float]]:
     scene, sampling = read_scene(file), Plan(points="independent", samples=SAMPLES, seed=5)
     wo = from_degrees(theta, 20.0)
     short, long = (
-        radiance.measure(claims.plan_of(scene, skip), wo, sampling) for skip in (True, False)
+        radiance.measure(plan.make(scene, skip), wo, sampling) for skip in (True, False)
     )
     bar = student.quantile(LEVEL / (3 * SCENES) / 2.0, 15)
     rows = []

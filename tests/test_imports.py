@@ -15,14 +15,14 @@ NAME = PACKAGE.name
 #: A part may import itself, what stands before it in its row, and errors.
 FLOW = (
     ("errors",),
-    ("bits", "files", "special", "student", "vectors"),
+    ("bits", "files", "special", "student", "toml", "vectors"),
     ("compile", "statistics"),
     ("sampling",),
     ("loading", "mixture", "model", "model_file", "models"),
     ("estimate",),
-    ("cases",),
+    ("cases", "truth"),
     ("judge",),
-    ("bench", "checks"),
+    ("checks",),
     ("scene", "stability"),
     ("report",),
     ("verify",),
@@ -34,14 +34,14 @@ FLOW = (
 RANK = {part: rank for rank, row in enumerate(FLOW) for part in row}
 #: Imported by those who compare with the truth, and importing nothing of the package.
 REFERENCES = "references"
-COMPARE = ("bench", "checks", "report", "scene")
+COMPARE = ("checks", "report", "scene", "truth")
 #: What a model may use: a user's own file has exactly the form of a built-in one.
 FOR_MODELS = {"bits", "models", "sampling.warps", "special", "vectors"}
 #: package -> where it may be imported
 KEPT_IN = {
     "click": ("cli/",),
     "matplotlib": ("report/",),
-    "numba": ("compile/", "bench/peers.py"),  # peers are what others do
+    "numba": ("compile/",),
     "llvmlite": ("compile/",),
     "rich": ("report/", "cli/_progress.py"),
 }

@@ -9,6 +9,7 @@ import pytest
 from conftest import Outcome
 
 import montecarlo_brdf as mb
+from montecarlo_brdf.errors import ModelError
 
 EXACT = '''\
 import math
@@ -191,3 +192,29 @@ def test_lossless_with_and_without_parameters_to_vary(
     outcome = cli("run", "--model", path, "--check", "limits", *fixed)
     assert outcome.code == 0, outcome.err
     assert f"PASS  {3 if fixed else 4} pass" in outcome.out
+
+
+REFUSED = {
+    "sample = 3": "needs a function sample(wo, u, p)",
+    "def pdf(wi, p):\n    return 1.0": "pdf of model {} must take the arguments (wo, wi, p)",
+    "domain = {'a': (1, 0)}": "must give (low, high) for a, not (1, 0)",
+    "domain = {'a': ('0', '1')}": "must give (low, high) for a",
+    "domain = {'a': (0, 1)}": "domain: no parameter of model {} 'a'",
+    "domain = 3": "domain of model {} must be a dictionary, not 3",
+    "verified = 3": "verified of model {} must be a list, not 3",
+    "same_as = 3": "same_as of model {} must be a name, not 3",
+    "lossless = 3": "lossless of model {} must be True or a list of parameter sets",
+    "limits = [3]": "limits of model {} must be a list of (changed parameters, model)",
+    "lobe = 3": "lobe of model {} must be (kind, function of p)",
+    "albedo = 0.5": "albedo of model {} must be a function (cos_theta_o, p)",
+    "choices = {'norm': {}}": "needs a dictionary of options for norm",
+    "choices = {'norm': {'x': {'function': f}}}": "did you mean 'functions'?",
+}
+
+
+@pytest.mark.parametrize("declared", REFUSED)
+def test_a_member_that_cannot_mean_anything(declared: str, user_file: Write) -> None:
+    path = user_file(f"def f(wo, wi, p):\n    return 0.1\n{declared}\n")
+    with pytest.raises(ModelError) as refused:
+        mb.load(str(path))
+    assert REFUSED[declared].format(path) in str(refused.value)

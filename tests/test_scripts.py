@@ -44,7 +44,7 @@ def missing(tree: ast.AST) -> Iterator[str]:
                 yield f"{node.value.id}.{node.attr}"
 
 
-@pytest.mark.parametrize("path", sorted(SCRIPTS.glob("*.py")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(SCRIPTS.rglob("*.py")), ids=lambda path: path.stem)
 def test_what_a_script_takes_of_the_package_is_there(path: Path) -> None:
     assert list(missing(ast.parse(path.read_text(encoding="utf-8")))) == []
 

@@ -20,7 +20,9 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.cases.directions import MIRROR, vectors
 from montecarlo_brdf.estimate import scattered
 from montecarlo_brdf.estimate.quadrature import grid
+from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import samplers_of
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.sampling.spread import net, spread
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.vectors import Vec, from_degrees
@@ -103,7 +105,7 @@ class Space(NamedTuple):
         return {f"theta_{letter}_deg": round(theta, 3), **turned, **changed}
 
 
-def albedo(space: Space, quantity: str) -> Value:
+def albedo(space: Space, of: Quantity) -> Value:
     """A or R by the sampler that sees the lobe, or in slopes of half vectors where there is none;
     infinite where it is not a number."""
     model = space.case.model
@@ -111,10 +113,10 @@ def albedo(space: Space, quantity: str) -> Value:
     def value(at: Array, stage: str) -> Array:
         w = space.vectors(at)
         sets = space.rows(at)
-        own = samplers_of(model, quantity)[-1] == "own"
+        own = Sampler.OWN in samplers_of(model, of)
         side = np.ones(len(w)) if own else _side(space, w, sets)
         places = np.concatenate([w, side[:, None]], axis=1)
-        found = scattered.mean_values(model, quantity, _nodes(space, quantity, stage), places, sets)
+        found = scattered.mean_values(model, of, _nodes(space, of, stage), places, sets)
         return np.where(np.isfinite(found), found, math.inf)
 
     return value
@@ -132,9 +134,9 @@ def _side(space: Space, w: Array, sets: scattered.Rows) -> Array:
     return np.where(np.maximum(retro, mirror) > SHARP * beside, side, 0.0)
 
 
-def _nodes(space: Space, quantity: str, stage: str) -> Array:
+def _nodes(space: Space, of: Quantity, stage: str) -> Array:
     draws, cells = NODES[stage]
-    if samplers_of(space.case.model, quantity)[-1] == "own":
+    if Sampler.OWN in samplers_of(space.case.model, of):
         u = net(draws, stream(space.case.seed, "search"))
         return np.concatenate([u, np.full((draws, 1), 1.0 / draws)], axis=1)
     x, b, weight = grid(*cells)

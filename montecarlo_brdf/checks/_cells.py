@@ -9,13 +9,13 @@ import numpy as np
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks._truth import lobe_scale
-from montecarlo_brdf.estimate import counting, tabulating
+from montecarlo_brdf.estimate import cells
 from montecarlo_brdf.estimate.quadrature import Coordinates
 
 COARSE, FINE, FINEST = (384, 256), (768, 512), (1536, 1024)  # grids of tabulated densities
 UNSURE = 0.01  # a rejected share that steps of the density may feign
 JITTERED = 0x5EED  # the key of places at random in their squares
-CELLS = counting.ROWS * counting.COLUMNS
+CELLS = cells.ROWS * cells.COLUMNS
 
 
 class Cells:
@@ -30,7 +30,7 @@ class Cells:
     @functools.cached_property
     def tables(self) -> tuple[Any, Any, float]:
         """(cumulated marginal in b, cumulated conditionals in x, total mass), midpoint rule."""
-        density, _ = tabulating.tabulated(self.model, self.p, self.place, self.size)
+        density, _ = cells.tabulated(self.model, self.p, self.coordinates.place, self.size)
         density = density.reshape(self.size)
         columns = np.concatenate([np.zeros((1, self.size[1])), np.cumsum(density, axis=0)])
         marginal = np.concatenate([[0.0], np.cumsum(columns[-1])])
@@ -39,9 +39,10 @@ class Cells:
     @functools.cached_property
     def jittered(self) -> Any:
         """The cells' probabilities by another grid, at random in each square."""
-        density, wi = tabulating.tabulated(self.model, self.p, self.place, self.size, JITTERED)
-        cells = counting.placed(self.model, self.p, self.cut, wi)
-        return np.bincount(cells, weights=density, minlength=CELLS)
+        place = self.coordinates.place
+        density, wi = cells.tabulated(self.model, self.p, place, self.size, JITTERED)
+        at = cells.placed(self.model, self.cut, wi)
+        return np.bincount(at, weights=density, minlength=CELLS)
 
     @property
     def error(self) -> float:
@@ -50,23 +51,18 @@ class Cells:
         each = self.tables[2] / CELLS
         return float(np.sqrt(np.sum((self.jittered - each) ** 2 / each)))
 
-    @property
-    def place(self) -> tuple[float, ...]:
-        """What compiled code knows of the coordinates."""
-        return (*self.wo, *self.coordinates.turn, self.coordinates.scale)
-
     @functools.cached_property
-    def cut(self) -> counting.Cut:
+    def cut(self) -> cells.Cut:
         """The cells as compiled code reads them."""
         marginal, columns, mass = self.tables
         inside = (columns / np.maximum(columns[-1], 1e-300)).T
-        rows = [edges(one, counting.ROWS) for one in inside]
-        between = edges(marginal / mass, counting.COLUMNS)
-        return counting.Cut(*self.size, np.concatenate([self.place, between, *rows]))
+        rows = [edges(one, cells.ROWS) for one in inside]
+        between = edges(marginal / mass, cells.COLUMNS)
+        return cells.Cut(*self.size, np.concatenate([self.coordinates.place, between, *rows]))
 
     def counts(self, key: int, samples: int, threads: int = 1) -> Any:
         """Draws in each cell, and last those that were rejected or are not finite."""
-        return counting.drawn(self.model, self.p, self.cut, key, samples, threads)
+        return cells.counted(self.model, self.p, self.cut, key, samples, threads)
 
     @property
     def probability(self) -> Any:

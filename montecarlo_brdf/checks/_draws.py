@@ -16,8 +16,8 @@ from montecarlo_brdf.cases import directions, parameters
 from montecarlo_brdf.cases.case import Case, pointwise
 from montecarlo_brdf.checks._hints import azimuth_named, moved_named, shape_named, wider_named
 from montecarlo_brdf.checks._truth import lobe_scale, own_probes
-from montecarlo_brdf.estimate.probe import returns_weight
 from montecarlo_brdf.estimate.quadrature import Coordinates, Integral, integrate
+from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.judge.claim import Exact
 
 NAME = "pdf"  # whose streams these are
@@ -116,7 +116,7 @@ def _kinds(case: Case, wo: Any, u: Any) -> tuple[dict[str, Any], Any]:
     }
     if not above.any():
         kinds["below the horizon, which is all of them"] = finite
-    if returns_weight(case.model):
+    if weighted(case.model):
         kinds["with a weight that is not finite"] = above & ~np.isfinite(weights)
     if case.model.pdf is not None:
         up = np.where(above[:, None], w, wo)

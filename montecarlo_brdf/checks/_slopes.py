@@ -8,24 +8,21 @@ direction or at wo itself. It cannot see: a sharp lobe elsewhere.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from montecarlo_brdf.cases.case import pointwise
+from montecarlo_brdf.compile.bind import bound
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.slopes import (
-    albedo_slopes,
-    density_slopes,
-    density_uniform,
-    radiance_slopes,
-)
+from montecarlo_brdf.estimate.quantity import Integrand, Quantity, integrand, sky_beside
 from montecarlo_brdf.estimate.subject import Subject
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec, mirrored
 
 NAME = "slopes"
@@ -36,22 +33,24 @@ AGREE = 6.0  # standard errors: what uniform directions miss of a sharp lobe is 
 def albedo(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
     """A(wo)."""
     side = side_of(model, one, wo)
-    bound = {"F": model.f}
-    return _measured(model, one, (*wo, side), bound, albedo_slopes, seed)
+    mean = integrand(Quantity.ALBEDO, Sampler.SLOPES, {"F": model.f})
+    return _measured(model, one, (*wo, side), mean, seed)
 
 
 def radiance(model: Model, one: Any, wo: Vec, sky: Any, which: float, seed: int) -> Measurement:
     """Reflected radiance under sky(w, which)."""
     place = (*wo, side_of(model, one, wo) * (1.0 + which))
-    bound = {"F": model.f, "SKY": sky}
-    return _measured(model, one, place, bound, radiance_slopes, seed)
+    functions = {"F": model.f, "SKY": bound(sky_beside, SKY=sky)}
+    mean = integrand(Quantity.RADIANCE, Sampler.SLOPES, functions)
+    return _measured(model, one, place, mean, seed)
 
 
 def mass(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
     """int pdf dwi; by uniform directions where those agree and are more precise."""
-    place, bound = (*wo, 1.0), {"PDF": model.pdf}
-    slopes = _measured(model, one, place, bound, density_slopes, seed)
-    uniform = _measured(model, one, place, bound, density_uniform, seed)
+    slopes, uniform = (
+        _measured(model, one, (*wo, 1.0), integrand(Quantity.MASS, s, {"PDF": model.pdf}), seed)
+        for s in (Sampler.SLOPES, Sampler.UNIFORM)
+    )
     a, b = slopes.estimate, uniform.estimate
     agree = abs(a.mean - b.mean) <= AGREE * math.hypot(a.stderr, b.stderr)
     return uniform._replace(estimator="uniform") if agree and b.stderr < a.stderr else slopes
@@ -64,9 +63,9 @@ def side_of(model: Model, one: Any, wo: Vec) -> float:
 
 
 def _measured(
-    model: Model, one: Any, place: Any, functions: Mapping[str, Any], integrand: Any, seed: int
+    model: Model, one: Any, place: Sequence[float], mean: Integrand, seed: int
 ) -> Measurement:
-    subject = Subject((model.name, *map(repr, one)), functions, [model.prepared(one)])
-    e = evaluate(subject, place, [integrand], Plan(samples=SAMPLES, seed=seed), (NAME,))[0][0]
+    subject = Subject((model.name, *map(repr, one)), [model.prepared(one)])
+    e = evaluate(subject, place, [mean], Plan(samples=SAMPLES, seed=seed), (NAME,))[0][0]
     few = e.effective_samples() < trust.FEWEST
     return Measurement(NAME, e, "a lobe where half vectors do not show it" if few else None)

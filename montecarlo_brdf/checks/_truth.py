@@ -5,11 +5,11 @@ import functools
 import math
 from typing import Any
 
-from montecarlo_brdf.checks import _remembered
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Reference
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.truth import true_albedo
 from montecarlo_brdf.vectors import Vec, from_degrees
 
 #: numbers from which lobe coordinates learn the width of a sampler's lobe
@@ -38,7 +38,7 @@ def independent(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) 
     if not model.built_in:
         return None
     turned = {} if model.isotropic else {"phi_o": math.radians(phi_deg)}
-    truth = _remembered.albedo(model.name, mu, **one._asdict(), **model.picks, **turned)
+    truth = true_albedo(model.name, mu, **one._asdict(), **model.picks, **turned)
     return Reference(*truth) if truth else None
 
 

@@ -20,7 +20,8 @@ from montecarlo_brdf.checks import _truth, furnace
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import integrand, samplers_of
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import BOUND_TOLERANCE, Claim, MeanClaim, Reference, Skip
 from montecarlo_brdf.model import Model
@@ -29,7 +30,7 @@ from montecarlo_brdf.vectors import Vec
 NAME = "energy"
 QUESTION = "is ever more reflected than received?"
 PROPERTY = "energy"
-QUANTITIES = {"albedo": "A", "reverse": "R"}
+QUANTITIES = {Quantity.ALBEDO: "A", Quantity.REVERSE: "R"}
 UNDRAWN = (0.0, 45.0, 85.0)  # degrees at which a quadrature is asked too
 
 
@@ -55,12 +56,12 @@ def _unasked(model: Model) -> Iterator[Claim]:
         yield Skip(f"other {name}", reason)
 
 
-def _claim(space: worst.Space, quantity: str, symbol: str, channel: dict[str, int]) -> Claim:
+def _claim(space: worst.Space, quantity: Quantity, symbol: str, channel: dict[str, int]) -> Claim:
     case, value = space.case, worst.albedo(space, quantity)
     spot = _undrawn(space, quantity, worst.worst(space, value))
     p, fixed = space.parameters(spot.at), space.vector(spot.at)
     theta, phi = space.direction(spot.at)
-    reverse = quantity == "reverse"
+    reverse = quantity is Quantity.REVERSE
     there = case._replace(p=p, phi_o_deg=phi, samplers=None)
     return MeanClaim(
         f"worst {symbol} <= 1",
@@ -78,7 +79,7 @@ def _claim(space: worst.Space, quantity: str, symbol: str, channel: dict[str, in
     )
 
 
-def _undrawn(space: worst.Space, quantity: str, spot: worst.Spot) -> worst.Spot:
+def _undrawn(space: worst.Space, quantity: Quantity, spot: worst.Spot) -> worst.Spot:
     """A worse place by a quadrature of f, with parameters at the ends of their ranges and some
     inside: a search by the model's own sampler sees only what that draws."""
     case = space.case
@@ -86,7 +87,8 @@ def _undrawn(space: worst.Space, quantity: str, spot: worst.Spot) -> worst.Spot:
     for p, theta in itertools.product(sets, UNDRAWN):
         position = parameters.position(case, p).values()
         at = (theta / worst.LAST, *(0.0,) * space.turning, *position)
-        value, error = _truth.quadrature(case.model, p, space.vector(at), quantity == "reverse")
+        reverse = quantity is Quantity.REVERSE
+        value, error = _truth.quadrature(case.model, p, space.vector(at), reverse)
         if value - 2.0 * error > max(1.0, spot.value):
             spot = worst.Spot(at, value)
     return spot
@@ -111,8 +113,8 @@ def _albedo(case: Case, theta: float, plan: Plan) -> list[Measurement]:
 
 def _reverse(model: Model, p: Any, wi: Vec, plan: Plan) -> list[Measurement]:
     """R by every sampler."""
-    chosen = samplers_of(model, "reverse")
-    names = [integrand_name(model, "reverse", s) for s in chosen]
-    row = estimates(model, p, wi, names, plan, (NAME, "reverse"))[0]
+    chosen = samplers_of(model, Quantity.REVERSE)
+    means = [integrand(model, Quantity.REVERSE, s) for s in chosen]
+    row = estimates(model, p, wi, means, plan, (NAME, "reverse"))[0]
     sight = trust.look(model, p, wi)
     return [trust.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]

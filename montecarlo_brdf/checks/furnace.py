@@ -17,7 +17,9 @@ from montecarlo_brdf.checks import _truth
 from montecarlo_brdf.estimate import adaptive, trust
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
+from montecarlo_brdf.estimate.quantity import Quantity, second_moment
+from montecarlo_brdf.estimate.samplers import BLIND, integrand, samplers_of
+from montecarlo_brdf.estimate.subject import functions_of
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
@@ -40,14 +42,15 @@ SMALLEST = 0.05  # albedo below which agreement is absolute
 def claims(case: Case) -> Iterator[Claim]:
     """Two per angle and channel, and for a mixture that its weights add up to at most 1."""
     for theta in case.theta_o_deg:
-        yield from _at_angle(case, theta)
+        yield from at_angle(case, theta)
     if case.model.albedo and searchable(case):
         yield inside(case, "A elsewhere", lambda mu, p: float(case.model.albedo(mu, p)), "albedo()")
     for k, one in enumerate(case.sets if case.model.terms else []):
         yield _weights(case, one, {"channel": k} if len(case.sets) > 1 else {})
 
 
-def _at_angle(case: Case, theta: float) -> Iterator[Claim]:
+def at_angle(case: Case, theta: float) -> Iterator[MeanClaim]:
+    """A equals its reference, and A <= 1; per channel."""
     measured = functools.cache(functools.partial(measure, case, theta))
     for k, one in enumerate(case.sets):
         where = case.where(theta_o_deg=theta)
@@ -105,7 +108,7 @@ def inside(case: Case, quantity: str, known: Any, source: str) -> Claim:
     from montecarlo_brdf.cases import worst
 
     space = worst.Space(case)
-    value = worst.albedo(space, "albedo")
+    value = worst.albedo(space, Quantity.ALBEDO)
 
     def expected(at: Any) -> float:
         return known(space.vector(at)[2], space.parameters(at))
@@ -178,11 +181,11 @@ def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:
     if plan.target_error is not None or plan.method == "auto":
         return _adaptive(model, case.p, wo, plan)
     chosen = [s for s in samplers_of(model) if case.samplers is None or s in case.samplers]
-    names = [integrand_name(model, "albedo", s) for s in chosen]
-    blind = [s for s in chosen if s in trust.SCALE]
+    means = [integrand(model, Quantity.ALBEDO, s) for s in chosen]
+    blind = [s for s in chosen if s in BLIND]
     if model.sample and model.pdf:
-        names += [f"second_{s}" for s in blind]
-    rows = estimates(model, case.p, wo, names, plan, (NAME,))
+        means += [second_moment(s, functions_of(model)) for s in blind]
+    rows = estimates(model, case.p, wo, means, plan, (NAME,))
     result = []
     for row, one in zip(rows, case.sets, strict=True):
         sight = trust.look(model, one, wo)

@@ -22,8 +22,11 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws, _slopes
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import integrand
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Claim, ExactClaim, MeanClaim, Reference, Skip
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate, hidden_error
 
 NAME = "pdf"
@@ -114,7 +117,8 @@ def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:
 
 def _rejected(case: Case, theta: float, plan: Plan) -> Estimate:
     more = plan._replace(samples=4 * plan.samples)  # an edge in the integrand, but a cheap one
-    rows = estimates(case.model, case.one, case.wo(theta), ["rejected_own"], more, (NAME,))
+    lost = integrand(case.model, Quantity.REJECTED, Sampler.OWN)
+    rows = estimates(case.model, case.one, case.wo(theta), [lost], more, (NAME,))
     return rows[0][0]
 
 

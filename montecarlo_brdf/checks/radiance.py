@@ -17,15 +17,16 @@ import numpy as np
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case, pointwise
 from montecarlo_brdf.checks import _slopes, _truth
-from montecarlo_brdf.estimate import integrands, trust
+from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.probe import returns_weight
 from montecarlo_brdf.estimate.quadrature import integrate
-from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import integrand, samplers_of, weighted
 from montecarlo_brdf.estimate.subject import subject_of
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, MeanClaim, Reference, Skip
+from montecarlo_brdf.sampling.directions import Sampler
 
 NAME = "radiance"
 QUESTION = "does it hold under light that is not constant?"
@@ -81,14 +82,14 @@ def _places(case: Case) -> Iterator[tuple[Case, float, dict[str, Any]]]:
     azimuths and parameters, as nothing else holds that weight against f."""
     for theta in case.theta_o_deg:
         yield case, theta, case.where(theta_o_deg=theta)
-    if case.model.sample and case.model.pdf is None and returns_weight(case.model):
+    if case.model.sample and case.model.pdf is None and weighted(case.model):
         for other, theta in parameters.elsewhere(case):
             yield other, theta, parameters.where(other, theta)
 
 
 def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measurement] | None:
     """Draws that follow the lobe, where the model has no sampler that does."""
-    if samplers_of(case.model)[-1] == "own":
+    if Sampler.OWN in samplers_of(case.model):
         return None
     place = case.one, case.wo(theta), either_sky, WHICH[name]
     return functools.partial(_slopes.radiance, case.model, *place)
@@ -110,8 +111,8 @@ def _expected(case: Case, theta: float, sky: Any) -> Reference | None:
 def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measurement]:
     model, wo = case.model, case.wo(theta)
     chosen = samplers_of(model)
-    functions = [getattr(integrands, integrand_name(model, "radiance", s)) for s in chosen]
-    subject = subject_of(model, case.one, SKY=either_sky)
-    row = evaluate(subject, (*wo, WHICH[name]), functions, plan, (name, NAME))[0]
+    means = [integrand(model, Quantity.RADIANCE, s, SKY=either_sky) for s in chosen]
+    subject = subject_of(model, case.one)
+    row = evaluate(subject, (*wo, WHICH[name]), means, plan, (name, NAME))[0]
     sight = trust.look(model, case.one, wo)
     return [trust.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]

@@ -19,7 +19,7 @@ from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws
 from montecarlo_brdf.checks._cells import COARSE, FINE, FINEST, UNSURE, Cells
-from montecarlo_brdf.estimate.counting import COLUMNS, ROWS
+from montecarlo_brdf.estimate.cells import COLUMNS, ROWS
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Fit, FitClaim, Skip
 from montecarlo_brdf.sampling.streams import stream

@@ -18,11 +18,11 @@ from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.judge.finding import Policy
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import SETS
-from montecarlo_brdf.scene.toml import Path_, Table, parse
+from montecarlo_brdf.toml import Keys, Table, parse
 
 FILE = "brdf-check.toml"
 PYPROJECT = "pyproject.toml"
-INSIDE: Path_ = ("tool", "brdf-check")
+INSIDE: Keys = ("tool", "brdf-check")
 
 
 class Project(NamedTuple):
@@ -43,9 +43,6 @@ class Section(Table):
         if isinstance(self.path[-1], int):
             return super().title()
         return f"[{'.'.join(str(part) for part in self.path if not isinstance(part, int))}]"
-
-    def _below(self, data: Mapping[str, Any], path: Path_) -> Section:
-        return Section(self.file, self.text, data, path)
 
 
 def find(folder: Path) -> Path | None:
@@ -69,12 +66,12 @@ def speaks(path: Path) -> bool:
 def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
     """The requests of a file; `overrides` (fields of Terms) stand above what it says."""
     data, text = parse(path)
-    at: Path_ = INSIDE if path.name == PYPROJECT else ()
+    at: Keys = INSIDE if path.name == PYPROJECT else ()
     for name in at:
         data = data.get(str(name), {})
     top = Section(path, text, data, at)
     limit = top.number("max_time", low=1e-3) if "max_time" in data else None
-    policy = Policy(top.choice("inconclusive", Policy)) if "inconclusive" in data else None
+    policy = Policy(top.choice("inconclusive", tuple(Policy))) if "inconclusive" in data else None
     top.know("inconclusive", "max_time", *SHARED)
     terms, tolerances = _shared(top, Terms(), {})
     entries = top.tables("models")

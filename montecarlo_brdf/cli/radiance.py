@@ -61,7 +61,7 @@ def command(
     """
     from montecarlo_brdf.cli._progress import progress
     from montecarlo_brdf.judge.finding import Verdict
-    from montecarlo_brdf.scene.make import with_views
+    from montecarlo_brdf.scene.read import with_views
     from montecarlo_brdf.verify.radiance import WEIGHTS, radiance
 
     output.check()
@@ -84,8 +84,7 @@ def scene_from(
     """The scene of a file, or of --model and --environment."""
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._values import parameter_sets
-    from montecarlo_brdf.scene.make import scene_of
-    from montecarlo_brdf.scene.read import read_scene
+    from montecarlo_brdf.scene.read import read_scene, scene_of
 
     if path is not None:
         if spec or sky:

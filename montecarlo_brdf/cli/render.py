@@ -147,7 +147,7 @@ def _from_model(spec: str, sky: str, assignments: Sequence[str]) -> Page:
     """A model under a sky, once per combination of -p values."""
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._values import axes, parameter_sets
-    from montecarlo_brdf.scene.make import scene_of
+    from montecarlo_brdf.scene.read import scene_of
 
     model = loading.load(spec)
     columns = _columns(axes(assignments, lambda name: model))

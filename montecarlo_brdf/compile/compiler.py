@@ -23,8 +23,11 @@ LIBC = frozenset([
     "acosh", "atanh", "sincos", "exp", "exp2", "expm1", "log", "log2", "log10", "log1p", "pow",
     "sqrt", "cbrt", "hypot", "erf", "erfc", "tgamma", "lgamma", "fabs", "floor", "ceil", "trunc",
     "rint", "round", "nearbyint", "fmod", "fma", "fmax", "fmin", "ldexp", "frexp", "copysign",
-    "sinf", "cosf", "tanf", "expf", "exp2f", "logf", "log2f", "powf", "sqrtf", "fmodf", "atan2f",
-    "memcpy", "memset", "memmove",
+    "sinf", "cosf", "tanf", "asinf", "acosf", "atanf", "atan2f", "sinhf", "coshf", "tanhf",
+    "asinhf", "acoshf", "atanhf", "sincosf", "expf", "exp2f", "expm1f", "logf", "log2f", "log10f",
+    "log1pf", "powf", "sqrtf", "cbrtf", "hypotf", "erff", "erfcf", "tgammaf", "lgammaf", "fabsf",
+    "floorf", "ceilf", "truncf", "rintf", "roundf", "nearbyintf", "fmodf", "fmaf", "fmaxf", "fminf",
+    "ldexpf", "frexpf", "copysignf", "memcpy", "memset", "memmove",
 ])  # fmt: skip
 #: How everything but the kernel itself is compiled: only ever called from other compiled code.
 INLINE = {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
@@ -52,12 +55,14 @@ def part(function: Function) -> Any:
     return _jit(function, **INLINE, pipeline_class=linking.pipeline())
 
 
-def whole(function: Function) -> Any:
-    """The same for what numba runs itself."""
-    return _jit(function, **INLINE)
+def is_mistake(error: Exception) -> bool:
+    """Whether numba complains about what a user's function does, not about itself."""
+    from numba.core import errors
+
+    return isinstance(error, (errors.TypingError, errors.UnsupportedError))
 
 
-def compile_function(function: Function) -> bytes:
+def object_file(function: Function) -> bytes:
     """`function(ints, reals, out)`, specialised from parts, as an object file.
 
     Raises NeedsRuntime if it needs more than libc, and numba's own errors if it does not compile.
@@ -70,12 +75,22 @@ def assembly(function: Function) -> str:
     return str(native.machine().emit_assembly(_module(function)))
 
 
-def compile_in_process(function: Function) -> native.NativeKernel:
-    """`function`, specialised from whole functions, run by numba itself: for functions that need
-    its run time. Not cached."""
-    overload = _overload(function, **KERNEL)
-    address = overload.library.get_pointer_to_function(overload.fndesc.llvm_func_name)
-    return native.callable_at(address, overload)
+def by_numba(function: Function) -> native.Entry:
+    """`function`, specialised from whole functions, compiled and run by numba's public way alone:
+    for what needs its run time, and for releases of numba that are not known here."""
+    import numba
+
+    inner = compiled(function)
+
+    def guarded(ints, reals, out):  # type: ignore[no-untyped-def]
+        try:
+            inner(ints, reals, out)
+        except Exception:
+            return 1
+        return 0
+
+    entry = numba.cfunc(numba.int32(*_pointers()), **options())(guarded)
+    return native.plain(entry.address or 0, entry)
 
 
 def _module(function: Function) -> Any:
@@ -95,8 +110,7 @@ def _module(function: Function) -> Any:
 def _overload(function: Function, **options: Any) -> Any:
     import numba
 
-    pointers = (numba.types.CPointer(numba.int64),) + (numba.types.CPointer(numba.float64),) * 2
-    dispatcher = _jit(function, numba.void(*pointers), **options)
+    dispatcher = _jit(function, numba.void(*_pointers()), **options)
     (overload,) = dispatcher.overloads.values()
     return overload
 
@@ -106,3 +120,10 @@ def _jit(function: Function, *signature: Any, **more: Any) -> Any:
 
     decorated: Any = numba.njit
     return decorated(*signature, **more, **options())(function)
+
+
+def _pointers() -> tuple[Any, ...]:
+    """The types of a kernel's arguments."""
+    import numba
+
+    return (numba.types.CPointer(numba.int64),) + (numba.types.CPointer(numba.float64),) * 2

@@ -12,13 +12,15 @@ import types
 from collections.abc import Mapping
 from typing import Any
 
-from montecarlo_brdf.compile.reach import (
+from montecarlo_brdf.compile.bind import (
+    Bound,
+    Instruction,
     is_own_module,
     module_functions,
     names_used,
     plain,
     references,
-    shares,
+    uses,
 )
 
 #: Values whose repr is all there is to know about them.
@@ -33,17 +35,23 @@ class Fingerprint:
 
     def __init__(self) -> None:
         self._hash = hashlib.blake2b(digest_size=16)
-        self._seen: dict[int, int] = {}
+        self._seen: dict[tuple[int, object], int] = {}
         self._modules: set[tuple[int, int]] = set()  # (module, code that uses it)
 
     def hexdigest(self) -> str:
         return self._hash.hexdigest()
 
-    def add(self, value: Any, bound: Mapping[str, Any] | None = None) -> None:
-        """Take in any value: code is followed, containers are walked, the rest goes by repr."""
+    def add(self, value: Any, names: Mapping[str, object] | None = None) -> None:
+        """Take in any value: code is followed, containers are walked, the rest goes by repr;
+        `names` fill the holes of a template."""
         value = plain(value)
-        if isinstance(value, types.FunctionType):
-            self._add_function(value, bound or {})
+        if isinstance(value, Bound):
+            self.add(value.function, dict(value.names))
+        elif isinstance(value, types.FunctionType):
+            self._add_function(value, names or {})
+        elif isinstance(value, Instruction):
+            self._text(type(value).__name__)
+            self.add(value.key())
         elif isinstance(value, types.CodeType):
             self._add_code(value)
         elif isinstance(value, (tuple, list)):
@@ -54,7 +62,7 @@ class Fingerprint:
         elif isinstance(value, dict):
             self._text("dictionary")
             self._add_sequence(sorted(value.items(), key=repr))
-        elif hasattr(value, "tobytes") and hasattr(value, "dtype"):
+        elif not isinstance(value, type) and hasattr(value, "tobytes") and hasattr(value, "dtype"):
             self._text(f"array {value.dtype} {value.shape}")
             self._hash.update(value.tobytes())
         elif isinstance(value, types.ModuleType):
@@ -102,17 +110,18 @@ class Fingerprint:
         self.add(code.co_names)
         self.add(code.co_varnames + code.co_freevars + code.co_cellvars)
 
-    def _add_function(self, function: types.FunctionType, bound: Mapping[str, Any]) -> None:
-        if id(function) in self._seen:
-            self._text(f"function {self._seen[id(function)]} again")
+    def _add_function(self, function: types.FunctionType, names: Mapping[str, object]) -> None:
+        place = id(function), frozenset(names.items()) if uses(function, names) else None
+        if place in self._seen:
+            self._text(f"function {self._seen[place]} again")
             return
-        self._seen[id(function)] = len(self._seen)
+        self._seen[place] = len(self._seen)
         self._add_code(function.__code__)
         self.add((function.__defaults__, function.__kwdefaults__))
         self.add([cell.cell_contents for cell in function.__closure__ or ()])
-        for name, value in references(function, bound).items():
+        for name, value in references(function, names).items():
             self._text(name)
-            self.add(value, bound if shares(function, value, bound) else None)
+            self.add(value, names if uses(value, names) else None)
             self._add_module(value, function.__code__)
 
     def _add_module(self, module: Any, code: types.CodeType) -> None:

@@ -1,4 +1,9 @@
-"""From a model's functions to a callable kernel: memory, then disk, then the compiler."""
+"""A kernel: a template with everything bound, compiled when it is first called.
+
+Machine code is found in memory, then on disk, else made by our own use of numba and LLVM
+(`compiler`). Where that breaks, as it may with another release of either, numba compiles by its
+public way: slower, not stored, and said once.
+"""
 from __future__ import annotations
 
 import contextlib
@@ -6,85 +11,150 @@ import functools
 import gc
 import sys
 import threading
+import time
 import warnings
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
-from montecarlo_brdf.compile import cache, compiler, linking, native, twins
-from montecarlo_brdf.compile import layout as layouts
-from montecarlo_brdf.compile.bind import Specialiser
+from montecarlo_brdf.compile import cache, compiler, layout, linking, native, twins
+from montecarlo_brdf.compile.bind import Bound, Function, Specialiser, bound
 from montecarlo_brdf.compile.fingerprint import Fingerprint
 from montecarlo_brdf.errors import ModelError, UserError
 
-Function = Callable[..., Any]
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+#: seconds that a call should take at most: Ctrl-C and time limits wait for one
+LONGEST = 0.05
+#: evaluations of the first call, as long as nothing is known
+FIRST = 64
 
 
-class Buildable(Protocol):
-    """A description from which a kernel can be made, with a hash of everything it depends on."""
+class Kernel:
+    """kernel(ints, reals, out), three addresses; raises ModelError where the model's code does."""
 
+    def __init__(self, template: Bound, model: str) -> None:
+        self._template, self._model = template, model
+        self._entry: native.Entry | None = None
+        #: seconds that an evaluation took in the call before, None as long as nothing is known
+        self.pace: float | None = None
+
+    def __call__(self, ints: int, reals: int, out: int) -> None:
+        if (self._entry or self.entry)(ints, reals, out) != 0:
+            raise ModelError(f"model {self._model} raised an exception while it was evaluated")
+
+    @functools.cached_property
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
-        ...
+        content = Fingerprint()
+        content.add((native.identity(), _sources(), self._template))
+        return content.hexdigest()
 
-    def parts(self) -> Hashable:
-        """The very objects it is made of: within a process the same objects are the same kernel."""
-        ...
+    @property
+    def entry(self) -> native.Entry:
+        """The machine code. Raises ModelError if the model's functions can not be compiled."""
+        with _lock:
+            self._entry = self._entry or self._compiled()
+            return self._entry
 
-    def assemble(self, special: Specialiser) -> Function:
-        """The template with everything bound, ready to be compiled."""
-        ...
+    def on(self, ints: Sequence[int], reals: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+        """A call with arrays."""
+        import numpy as np
+
+        numbers = np.array(ints, dtype=np.int64)
+        self(numbers.ctypes.data, reals.ctypes.data, out.ctypes.data)
+
+    def pieces(self, n: int, each: int = 1) -> Iterator[tuple[int, int]]:
+        """(start, count) of each call over n items of `each` evaluations, as many items as the pace
+        allows. How work is cut never shows in results: every item is computed alone."""
+        start = 0
+        while start < n:
+            count = min(n - start, max(1, self.affordable(LONGEST, FIRST) // each))
+            began = time.perf_counter()
+            yield start, count
+            self.timed(count * each, time.perf_counter() - began)
+            start += count
+
+    def timed(self, evaluations: int, seconds: float) -> None:
+        """Remember how long a call took."""
+        self.pace = max(seconds / evaluations, 1e-10)
+
+    def affordable(self, seconds: float, first: int) -> int:
+        """Evaluations of a call that is not too long; `first` as long as nothing is known."""
+        return first if self.pace is None else int(seconds / self.pace)
+
+    def _compiled(self) -> native.Entry:
+        """Our way, else numba's public one; a mistake of the user's becomes one sentence."""
+        with _no_collection(), warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # what matters of them shows in an error or a verdict
+            try:
+                return self._ours()
+            except (MemoryError, UserError):
+                raise
+            except Exception as error:  # other releases of numba break in ways of their own
+                if compiler.is_mistake(error):
+                    raise self._mistake(error) from error
+                ours = error
+            try:
+                entry = compiler.by_numba(self.assembled(compiler.compiled))
+            except Exception as error:
+                raise self._mistake(error) from error
+            if not isinstance(ours, compiler.NeedsRuntime):
+                _tell(ours)
+            return entry
+
+    def _ours(self) -> native.Entry:
+        image = cache.read(self.key)
+        if not image:
+            image = compiler.object_file(self.assembled(compiler.part))
+            cache.write(self.key, image)
+        return native.load(image)
+
+    def assembled(self, compile_one: Callable[[Function], Any] = compiler.part) -> Function:
+        """The template with its holes filled by what `compile_one` makes."""
+        return specialiser(compile_one).clone(self._template.function, dict(self._template.names))
+
+    def _mistake(self, error: Exception) -> ModelError:
+        return ModelError(f"model {self._model} does not compile: {_first_reason(error)}")
 
 
-def fingerprint(layout: layouts.Layout) -> Fingerprint:
-    """A hash begun with what every kernel depends on."""
-    content = Fingerprint()
-    content.add(native.identity())
-    content.add(_compiler_source())
-    content.add(layout.key())
-    return content
+_lock = threading.RLock()  # numba and what is shared between kernels serve one thread
+_kernels: dict[Bound, Kernel] = {}  # spares the hash of all code at every call
+
+
+def kernel(model: str, template: Function, **names: object) -> Kernel:
+    """The kernel of a template with names bound, for the functions of a model; one in a process."""
+    parts = bound(template, **names)
+    return _kernels.get(parts) or _kernels.setdefault(parts, Kernel(parts, model))
 
 
 @functools.cache
-def _compiler_source() -> tuple[bytes, ...]:
+def specialiser(compile_one: Callable[[Function], Any] = compiler.compiled) -> Specialiser:
+    """One for the process, so that kernels share the functions they have in common."""
+    return Specialiser(compile_one, twins.compiled_twins())
+
+
+@functools.cache
+def _sources() -> tuple[bytes, ...]:
     """The files that say how code is generated, as opposed to what it computes."""
-    sources = (twins, compiler, linking, native, layouts, sys.modules[__name__])
-    return tuple(Path(str(m.__file__)).read_bytes() for m in sources)
+    modules = (twins, compiler, linking, native, layout)
+    return tuple(Path(str(m.__file__)).read_bytes() for m in modules)
 
 
-_loaded: dict[str, native.NativeKernel] = {}
-_seen: dict[Hashable, native.NativeKernel] = {}  # spares the hash of all code at every call
-_lock = threading.Lock()
+_told: list[Exception] = []
 
 
-def kernel_of(recipe: Buildable) -> native.NativeKernel:
-    """The compiled kernel of a recipe."""
-    parts = recipe.parts()
-    if parts in _seen:
-        return _seen[parts]
-    key = recipe.key()
-    with _lock:
-        if key not in _loaded:
-            _loaded[key] = _from_disk(key) or _from_source(recipe, key)
-            _loaded[key].key = key  # type: ignore[attr-defined]  # partial sums are found by it
-        _seen[parts] = _loaded[key]
-        return _loaded[key]
-
-
-def _from_disk(key: str) -> native.NativeKernel | None:
-    image = cache.read(key)
-    return native.load(image) if image else None
-
-
-def _from_source(recipe: Buildable, key: str) -> native.NativeKernel:
-    with _no_collection(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # what matters of them shows in an error or in the verdict
-        try:
-            image = compiler.compile_function(recipe.assemble(specialiser(compiler.part)))
-        except compiler.NeedsRuntime:
-            return compiler.compile_in_process(recipe.assemble(specialiser()))
-    cache.write(key, image)
-    return native.load(image)
+def _tell(error: Exception) -> None:
+    """Say once that kernels are compiled another way."""
+    if not _told:
+        reason = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+        sys.stderr.write(
+            "note: this release of numba or llvmlite is not known here; kernels are compiled by "
+            f"numba's public way, which is slower ({reason})\n"
+        )
+    _told.append(error)
 
 
 @contextlib.contextmanager
@@ -97,41 +167,6 @@ def _no_collection() -> Iterator[None]:
     finally:
         if enabled:
             gc.enable()
-
-
-@functools.cache
-def specialiser(compile_one: Callable[[Function], Any] = compiler.whole) -> Specialiser:
-    """One for the process, so that kernels share the functions they have in common."""
-    return Specialiser(compile_one, twins.compiled_twins())
-
-
-def buffer(size: int) -> Any:
-    """Intrinsic that reserves `size` doubles on the kernel's stack."""
-    import llvmlite.ir as ir
-    import numba
-    from numba.core import cgutils
-    from numba.extending import intrinsic
-
-    @intrinsic
-    def buffer(typing: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            room = cgutils.alloca_once(builder, ir.DoubleType(), size=size)
-            room.align = 64  # or half of all vectors straddle two lines of the cache
-            return room
-
-        return numba.types.CPointer(numba.float64)(), generate
-
-    return buffer
-
-
-def compiled(name: str, recipe: Buildable) -> Any:
-    """The kernel of a recipe for model `name`; numba's complaints become one sentence."""
-    try:
-        return kernel_of(recipe)
-    except (MemoryError, UserError):
-        raise
-    except Exception as error:  # what numba cannot compile ends in errors of every kind
-        raise ModelError(f"model {name} does not compile: {_first_reason(error)}") from error
 
 
 def _first_reason(error: Exception) -> str:

@@ -7,7 +7,10 @@ the compiler then sees the same value once and computes what depends on it once.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
+
+from montecarlo_brdf.compile.bind import Instruction
 
 
 class Layout(NamedTuple):
@@ -67,34 +70,44 @@ def _count(shape: Any) -> int:
     return 1 if shape is None else sum(_count(s) for s in shape[1])
 
 
-def unpacker(layout: Layout) -> Any:
-    """Intrinsic `unpack(reals)`: the K NamedTuples of a layout."""
-    import numba
-    from numba.extending import intrinsic
+@dataclass(frozen=True)
+class Unpack(Instruction):
+    """`unpack(reals)`: the K NamedTuples of a layout."""
 
-    one = _numba_type(layout.shape)
+    layout: Layout
 
-    @intrinsic
-    def unpack(typing: Any, reals: Any) -> Any:
-        result = numba.types.UniTuple(one, len(layout.places))
+    def key(self) -> object:
+        """Names and places."""
+        return self.layout.key()
 
-        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            def number(place: int) -> Any:
-                index = context.get_constant(numba.types.intp, place)
-                return builder.load(builder.gep(args[0], [index]))
+    def intrinsic(self) -> Any:
+        """Loads, and tuples made of them."""
+        import numba
+        from numba.extending import intrinsic
 
-            def made(shape: Any, places: Iterator[int]) -> Any:
-                if shape is None:
-                    return number(next(places))
-                fields = [made(s, places) for s in shape[1]]
-                return context.make_tuple(builder, _numba_type(shape), fields)
+        layout, one = self.layout, _numba_type(self.layout.shape)
 
-            tuples = [made(layout.shape, iter(places)) for places in layout.places]
-            return context.make_tuple(builder, result, tuples)
+        @intrinsic
+        def unpack(typing: Any, reals: Any) -> Any:
+            result = numba.types.UniTuple(one, len(layout.places))
 
-        return result(reals), generate
+            def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+                def number(place: int) -> Any:
+                    index = context.get_constant(numba.types.intp, place)
+                    return builder.load(builder.gep(args[0], [index]))
 
-    return unpack
+                def made(shape: Any, places: Iterator[int]) -> Any:
+                    if shape is None:
+                        return number(next(places))
+                    fields = [made(s, places) for s in shape[1]]
+                    return context.make_tuple(builder, _numba_type(shape), fields)
+
+                tuples = [made(layout.shape, iter(places)) for places in layout.places]
+                return context.make_tuple(builder, result, tuples)
+
+            return result(reals), generate
+
+        return unpack
 
 
 def _numba_type(shape: Any) -> Any:
@@ -115,15 +128,54 @@ def _numba_type(shape: Any) -> Any:
     return numba.types.NamedTuple(fields, kind)
 
 
-def place_row() -> Any:
-    """Intrinsic `row(reals, k)`: the numbers from place k on."""
-    from numba.extending import intrinsic
+@dataclass(frozen=True)
+class Row(Instruction):
+    """`row(reals, k)`: the numbers from place k on."""
 
-    @intrinsic
-    def from_place(typing: Any, reals: Any, k: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-            return builder.gep(args[0], [args[1]])
+    def key(self) -> object:
+        """Nothing."""
+        return ()
 
-        return reals(reals, k), generate
+    def intrinsic(self) -> Any:
+        """A pointer that is moved."""
+        from numba.extending import intrinsic
 
-    return from_place
+        @intrinsic
+        def row(typing: Any, reals: Any, k: Any) -> Any:
+            def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+                return builder.gep(args[0], [args[1]])
+
+            return reals(reals, k), generate
+
+        return row
+
+
+@dataclass(frozen=True)
+class Buffer(Instruction):
+    """`buffer()`: room for `size` doubles on the kernel's stack."""
+
+    size: int
+
+    def key(self) -> object:
+        """The size."""
+        return self.size
+
+    def intrinsic(self) -> Any:
+        """A reservation at the entry of the function."""
+        import llvmlite.ir as ir
+        import numba
+        from numba.core import cgutils
+        from numba.extending import intrinsic
+
+        size = self.size
+
+        @intrinsic
+        def buffer(typing: Any) -> Any:
+            def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+                room = cgutils.alloca_once(builder, ir.DoubleType(), size=size)
+                room.align = 64  # or half of all vectors straddle two lines of the cache
+                return room
+
+            return numba.types.CPointer(numba.float64)(), generate
+
+        return buffer

@@ -17,8 +17,10 @@ from pathlib import Path
 from typing import Any
 
 ENTRY = "montecarlo_brdf_kernel"
-NativeKernel = Callable[[Any, Any, Any], int]
-_PROTOTYPE = ctypes.CFUNCTYPE(ctypes.c_int32, *[ctypes.c_void_p] * 5)
+#: entry(ints, reals, out), three addresses: 0, or the model's code raised an exception
+Entry = Callable[[int, int, int], int]
+_OURS = ctypes.CFUNCTYPE(ctypes.c_int32, *[ctypes.c_void_p] * 5)  # numba's own convention
+_PLAIN = ctypes.CFUNCTYPE(ctypes.c_int32, *[ctypes.c_void_p] * 3)
 
 
 @functools.cache
@@ -53,7 +55,7 @@ def release(package: str) -> str:
     return version(package)
 
 
-def load(image: bytes) -> NativeKernel:
+def load(image: bytes) -> Entry:
     """The kernel in an object file; keeps the loaded code alive as long as the callable."""
     binding = _llvm()
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), machine())
@@ -62,20 +64,28 @@ def load(image: bytes) -> NativeKernel:
     address = engine.get_function_address(ENTRY)
     if not address:
         raise ValueError(f"object file without {ENTRY}")
-    return callable_at(address, engine)
+    return _callable(address, engine)
 
 
-def callable_at(address: int, owner: Any) -> NativeKernel:
+def _callable(address: int, owner: object) -> Entry:
     """A Python function around machine code that lives as long as `owner`."""
-    call = _PROTOTYPE(address)
+    call = _OURS(address)
 
-    def kernel(ints: Any, reals: Any, out: Any) -> int:
-        exception = ctypes.c_void_p()
-        result = ctypes.c_int64()
+    def entry(ints: int, reals: int, out: int, owner: object = owner) -> int:
+        exception, result = ctypes.c_void_p(), ctypes.c_int64()
         return int(call(ctypes.addressof(result), ctypes.addressof(exception), ints, reals, out))
 
-    kernel.owner = owner  # type: ignore[attr-defined]
-    return kernel
+    return entry
+
+
+def plain(address: int, owner: object) -> Entry:
+    """The same around a function of C."""
+    call = _PLAIN(address)
+
+    def entry(ints: int, reals: int, out: int, owner: object = owner) -> int:
+        return int(call(ints, reals, out))
+
+    return entry
 
 
 def machine() -> Any:

@@ -6,16 +6,22 @@ at probed directions (measured: agreement of N with 2N accepts every missed lobe
 """
 from __future__ import annotations
 
+import functools
 import math
 from typing import Any, NamedTuple
 
+from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.estimate.ascent import FIRST, Ascent
+from montecarlo_brdf.estimate import moments, quantity
+from montecarlo_brdf.estimate.ascent import FIRST, Ascent, Method, Setting, looks_of
 from montecarlo_brdf.estimate.evaluate import estimates
-from montecarlo_brdf.estimate.methods import Method, Setting, given, methods, prepare, told
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.samplers import integrand_name
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import charts_of, integrand, query, samplers_of
+from montecarlo_brdf.estimate.subject import functions_of, identity_of
+from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.sampling.directions import Sampler
+from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.statistics import Estimate, estimates_of
 from montecarlo_brdf.vectors import Vec
 
@@ -63,9 +69,9 @@ def albedo(
         picked = given(model, sampler, plan.points) if plan.method == "given" else None
         return _until(model, p, wo, plan, picked)
     best = suited(model, p, wo, plan)
-    names = [integrand_name(model, "albedo", best.sampler)]
+    mean = integrand(model, Quantity.ALBEDO, best.sampler)
     fixed = plan._replace(points=best.points)
-    rows = estimates(model, p, wo, names, fixed, ("albedo", best.sampler))
+    rows = estimates(model, p, wo, [mean], fixed, ("albedo", best.sampler))
     return [row[0]._replace(method=told(best)) for row in rows], True
 
 
@@ -75,7 +81,7 @@ def _until(
     """Try methods until one reaches the target; the last word is the last one's."""
     tried: list[tuple[Setting, Outcome]] = []
     for method in (picked,) if picked else methods(model):
-        setting = prepare(model, p, _kind(p), method)
+        setting = prepare(model, p, hash(type(p)), method)
         tried.append((setting, climb(setting, wo, plan, final=picked is not None)))
         if tried[-1][1].reached:
             break
@@ -87,11 +93,7 @@ def _until(
         f"{s.method.sampler} x {s.method.points} {o.complaint}" for s, o in tried if o.complaint
     )
     story = told(best.method, others)
-    return estimates_of(outcome.states, best.means.channels, story), outcome.reached
-
-
-def _kind(p: Any) -> Any:
-    return type(p)
+    return estimates_of(outcome.states, best.channels, story), outcome.reached
 
 
 def suited(model: Model, p: Any, wo: Vec, plan: Plan) -> Method:
@@ -99,7 +101,7 @@ def suited(model: Model, p: Any, wo: Vec, plan: Plan) -> Method:
     size = max(FIRST, plan.samples // max(1, plan.replicates))
     few = plan._replace(target_error=TARGETS[1], replicates=4)
     for method in methods(model):
-        ascent = Ascent(prepare(model, p, _kind(p), method), wo, few, hopeless=0.0)
+        ascent = Ascent(prepare(model, p, hash(type(p)), method), wo, few, hopeless=0.0)
         ascent.look(1)
         if ascent.need <= size:
             return method
@@ -127,3 +129,55 @@ def _complaint(ascent: Ascent, chart: bool) -> str:
     if chart and len(errors) > 4 and errors[-1] > 0.5 * errors[-4]:
         return "does not fit: its replicates do not converge"
     return ""
+
+
+@functools.lru_cache(maxsize=1024)
+def methods(model: Model) -> list[Method]:
+    """What to try, best first."""
+    found = []
+    for chart in charts_of(model)[:1]:
+        kinked = chart is Sampler.PANELS
+        what = "kinks" if kinked else f"{chart.replace('_', '-')} lobe"
+        found.append(Method(chart, "lattice", f"the model declares its {what}"))
+    if not found:
+        found.append(Method(Sampler.COSINE, "lattice", "the model declares no lobe and no kinks"))
+    if Sampler.OWN in samplers_of(model):
+        found.append(Method(Sampler.OWN, "sobol", "its own sampler sees every lobe"))
+    return [*found, Method(Sampler.COSINE, "sobol", "nothing better fits")]
+
+
+def given(model: Model, sampler: str, points: str) -> Method:
+    """The method that the user asked for, or a UserError."""
+    offered = (*samplers_of(model), *charts_of(model))
+    if sampler not in offered:
+        raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
+    if points not in SETS:
+        raise UserError(unknown("point set", points, SETS))
+    return Method(Sampler(sampler), points, "as given")
+
+
+@functools.lru_cache(maxsize=256)
+def told(method: Method, rejected: tuple[str, ...] = ()) -> str:
+    """The method and why, as reports show it."""
+    return "; ".join((f"{method.sampler} x {method.points}: {method.why}", *rejected))
+
+
+@functools.lru_cache(maxsize=4096)
+def prepare(model: Model, p: Any, kind: object, method: Method) -> Setting:
+    """Kernel and numbers of a case. `kind` keeps equal tuples of different variants apart."""
+    layout, numbers = pack([model.prepared(c) for c in channels(p)], moments.QUERY)
+    mean = integrand(model, Quantity.ALBEDO, method.sampler)
+    mean = mean.for_lattice() if method.points == "lattice" else mean
+    probe = quantity.probe_of(method.sampler, functions_of(model))
+    identity = (method.points, *identity_of(model, p), "albedo")
+    return Setting(
+        method,
+        mean,
+        layout,
+        looks_of(model.name, method.points, mean, probe, layout),
+        probe is not None,
+        tuple(numbers),
+        query(model, p, (0.0, 0.0, 1.0))[3],
+        "\x1f".join((*identity, method.sampler)),
+        model.name,
+    )

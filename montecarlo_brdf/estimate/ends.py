@@ -1,28 +1,42 @@
 """What a model's sampler does at the ends of its numbers, where few draws fall and much may happen.
 
-Looked at by plain Python calls, in cells that halve towards 0 and 1 of u[0] and of u[1], down to
-2^-OCTAVES, which a million random numbers may never meet.
+Looked at in cells that halve towards 0 and 1 of u[0] and of u[1], down to 2^-OCTAVES, which a
+million random numbers may never meet.
 """
 from __future__ import annotations
 
+import functools
 import math
-import numbers
+from array import array
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.estimate.probe import called, number_from
+from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.kernel import kernel
+from montecarlo_brdf.compile.layout import Unpack, pack
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import integrand, samplers_of
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.directions import Sampler
+from montecarlo_brdf.statistics import SAME
 from montecarlo_brdf.vectors import Vec
+
+PARAMETERS: Any = hole()
+SAMPLE: Any = hole()
+INTEGRAND: Any = hole()
 
 #: cells towards each end of a number, and values of the other number in each
 OCTAVES, ACROSS = 24, 8
 GOLDEN = 0.6180339887498949  # the fraction of the golden ratio: its multiples never cluster
+#: the share of the draws in each cell, of half of them
+SHARES = tuple(0.5**k for k in range(OCTAVES))
+ROWS = 4 * ACROSS  # of cells: towards both ends of two numbers
 
 
 class Ends(NamedTuple):
     """Of rows of cells towards an end, all other numbers fixed: cell k holds 2^-(k + 2) of all."""
 
     rejected: float = 0.0  # share of the draws that lie below the horizon, to a factor of 2
-    weights: tuple[tuple[float, ...], ...] = ()  # f cos/pdf over its mean, ACROSS rows for each end
+    weights: tuple[tuple[float, ...], ...] = ()  # f cos/pdf over its mean, rows in which it varies
 
     def spread(self, samples: float) -> float:
         """What the draws nearest to the ends add to the relative error of a mean over points of
@@ -37,55 +51,77 @@ class Ends(NamedTuple):
         return math.sqrt(sum(v for v in variances if math.isfinite(v)) / ACROSS) / samples
 
 
+def weights(ints: Any, reals: Any, out: Any) -> None:
+    """out[2 j], out[2 j + 1] = cos and f cos/pdf of the draw for u_j.
+
+    ints = (n, place of wo), after which stand the numbers.
+    """
+    p, at = PARAMETERS(reals)[0], ints[1]
+    given = (reals[at], reals[at + 1], reals[at + 2], 0.0)
+    for j in range(ints[0]):
+        k = at + 3 + 3 * j
+        u = (reals[k], reals[k + 1], 0.0, 0.0, reals[k + 2], 0.0, 0.0, 0.0)
+        out[2 * j] = SAMPLE(given[:3], (u[0], u[1], u[4]), p)[2]
+        out[2 * j + 1] = INTEGRAND(u, given, p)
+
+
 def at_ends(model: Model, ready: Any, wo: Vec) -> Ends:
-    """The ends of the model's sampler, nothing without one."""
+    """The ends of the model's sampler, nothing without one; ready: prepared parameters."""
     if model.sample is None:
         return Ends()
-    rejected, weights, mean = [], [], 0.0
-    for axis in (0, 1):
-        rows = [_row(model, ready, wo, axis, end, j) for end in (0, 1) for j in range(ACROSS)]
-        rejected.append(_mean([[float(w is None) for w in row] for row in rows]))
-        weights += [[w or 0.0 for w in row] for row in rows]
-        mean += 0.5 * _mean(weights[-len(rows) :])
+    rows = _rows(model, ready, wo)
+    lost = [[float(z <= 0.0) for z, _ in row] for row in rows]
+    found = [[0.0 if z <= 0.0 else x for z, x in row] for row in rows]
+    half = len(rows) // 2  # of each number
+    mean = 0.5 * (_mean(found[:half]) + _mean(found[half:]))
     scale = 1.0 / mean if mean > 0.0 else math.nan
-    return Ends(max(rejected), tuple(tuple(scale * w for w in row) for row in weights))
+    varying = [row for row in found if not max(row) - min(row) <= SAME * mean]
+    weights = tuple(tuple(scale * x for x in row) for row in varying)
+    return Ends(max(_mean(lost[:half]), _mean(lost[half:])), weights)
+
+
+def _rows(model: Model, ready: Any, wo: Vec) -> list[list[tuple[float, float]]]:
+    """(cos, weight) in the cells of each row."""
+    layout, numbers = pack([ready], 0)
+    names: dict[str, object] = {"SAMPLE": model.sample, "PARAMETERS": Unpack(layout)}
+    if Sampler.OWN in samplers_of(model):
+        names["INTEGRAND"] = integrand(model, Quantity.ALBEDO, Sampler.OWN).template
+    else:
+        names["INTEGRAND"] = unknown
+    n = ROWS * OCTAVES
+    ints = array("q", (n, len(numbers)))
+    reals = array("d", (*numbers, *wo, *_numbers()))
+    out = array("d", bytes(16 * n))
+    kernel(model.name, weights, **names)(*(a.buffer_info()[0] for a in (ints, reals, out)))
+    pairs = list(zip(out[::2], out[1::2], strict=True))
+    return [pairs[k : k + OCTAVES] for k in range(0, n, OCTAVES)]
+
+
+def unknown(u: Any, given: Any, p: Any) -> float:
+    """The weight where nothing tells it."""
+    return math.nan
+
+
+@functools.cache
+def _numbers() -> array[float]:
+    """u[0], u[1], u[2] of every cell."""
+    places = [(a, e, j, s) for a in (0, 1) for e in (0, 1) for j in range(ACROSS) for s in SHARES]
+    return array("d", [x for place in places for x in _u(*place)])
+
+
+def _u(axis: int, end: int, j: int, share: float) -> Vec:
+    t, s, third = abs(end - 0.375 * share), (j + 0.5) / ACROSS, math.modf(0.5 + j * GOLDEN)[0]
+    return (s, t, third) if axis else (t, s, third)
 
 
 def _mean(rows: list[list[float]]) -> float:
     """Over all cells of a number where the value is known."""
-    cells = [0.25 * 0.5**k * x for row in rows for k, x in enumerate(row) if math.isfinite(x)]
-    return sum(cells) / ACROSS
-
-
-def _row(model: Model, ready: Any, wo: Vec, axis: int, end: int, j: int) -> list[float | None]:
-    """Weights towards an end of a number, None for a rejected draw."""
-    places = (abs(end - 0.375 * 0.5**k) for k in range(OCTAVES))
-    return [_weight(model, ready, wo, _numbers(axis, t, j)) for t in places]
-
-
-def _numbers(axis: int, t: float, j: int) -> Vec:
-    s, third = (j + 0.5) / ACROSS, math.modf(0.5 + j * GOLDEN)[0]
-    return (s, t, third) if axis else (t, s, third)
-
-
-def _weight(model: Model, ready: Any, wo: Vec, u: Vec) -> float | None:
-    """f cos/pdf of a draw, None below the horizon, NaN where it has none."""
-    w = called(model, "sample", model.sample, wo, u, ready)
-    if not (isinstance(w, tuple) and all(isinstance(c, numbers.Real) for c in w)):
-        return math.nan
-    if w[2] <= 0.0:
-        return None
-    if len(w) == 4:
-        return float(w[3])
-    if model.pdf is None:
-        return math.nan
-    pdf = number_from(model, "pdf", model.pdf, wo, w, ready)
-    f = number_from(model, "f", model.f, wo, w, ready)
-    return f * float(w[2]) / pdf if pdf else math.nan
+    known = [s * x for row in rows for s, x in zip(SHARES, row, strict=True) if math.isfinite(x)]
+    return 0.25 * sum(known) / ACROSS
 
 
 def _variance(tail: tuple[float, ...]) -> float:
     """Of weights in cells of which each holds half as many draws as the one before."""
-    share = [0.5**k for k in range(len(tail))]
+    share = SHARES[: len(tail)]
     mean = sum(s * w for s, w in zip(share, tail, strict=True)) / sum(share)
     return sum(s * (w - mean) ** 2 for s, w in zip(share, tail, strict=True)) / sum(share)

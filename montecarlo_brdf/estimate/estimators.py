@@ -6,13 +6,15 @@ from collections.abc import Sequence
 from typing import Any
 
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.estimate import adaptive, integrands
+from montecarlo_brdf.estimate import adaptive, quantity
 from montecarlo_brdf.estimate.arguments import check_subject, check_theta
 from montecarlo_brdf.estimate.evaluate import estimates, evaluate
 from montecarlo_brdf.estimate.plan import REPLICATES, Plan
-from montecarlo_brdf.estimate.samplers import SAMPLERS, charts_of, integrand_name, samplers_of
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import BLIND, charts_of, integrand, samplers_of
 from montecarlo_brdf.estimate.subject import Subject
 from montecarlo_brdf.model import Model, NoParams
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.vectors import Vec, from_degrees
 
@@ -57,7 +59,7 @@ def directional_albedo(
     plan = Plan(points, samples, replicates, seed, threads, None, target_error, chosen)
     wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
     if target_error is None and chosen == "given":
-        return _one(model, p, "albedo", wo, sampler, plan)
+        return _one(model, p, Quantity.ALBEDO, wo, sampler, plan)
     found, _ = adaptive.albedo(model, p, wo, plan, sampler)
     return found[0] if len(found) == 1 else found
 
@@ -97,7 +99,7 @@ def reverse_albedo(
     check_subject(model, p)
     plan = Plan(points, samples, replicates, seed, threads)
     wi = from_degrees(check_theta(theta_i_deg, "theta_i_deg"), phi_i_deg)
-    return _one(model, p, "reverse", wi, sampler, plan)
+    return _one(model, p, Quantity.REVERSE, wi, sampler, plan)
 
 
 def bihemispherical_albedo(
@@ -123,16 +125,16 @@ def bihemispherical_albedo(
     """
     check_subject(model, p)
     plan = Plan(points, samples, replicates, seed, threads)
-    return _one(model, p, "bihemispherical", (0.0, 0.0, 1.0), sampler, plan)
+    return _one(model, p, Quantity.BIHEMISPHERICAL, (0.0, 0.0, 1.0), sampler, plan)
 
 
-def _one(model: Model, p: Any, quantity: str, fixed: Vec, sampler: str, plan: Plan) -> Any:
+def _one(model: Model, p: Any, of: Quantity, fixed: Vec, sampler: str, plan: Plan) -> Any:
     model = model.of(p)
-    offered = (*samplers_of(model, quantity), *charts_of(model))
+    offered = (*samplers_of(model, of), *charts_of(model))
     if sampler not in offered:
         raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
-    names = [integrand_name(model, quantity, sampler)]
-    rows = estimates(model, p, fixed, names, plan, (quantity, sampler))
+    mean = integrand(model, of, sampler)
+    rows = estimates(model, p, fixed, [mean], plan, (of, sampler))
     return rows[0][0] if len(rows) == 1 else [row[0] for row in rows]
 
 
@@ -147,8 +149,8 @@ def hemisphere_integral(
     Returns an Estimate in the function's unit times sr. Raises UserError for another sampler,
     ModelError if the function does not compile or raises.
     """
-    if sampler not in SAMPLERS[:2]:
-        raise UserError(unknown("sampler", sampler, SAMPLERS[:2]))
-    subject = Subject((function.__qualname__, *map(repr, p)), {"F": function}, [p])
-    kind = integrands.hemisphere_uniform if sampler == "uniform" else integrands.hemisphere_cosine
-    return evaluate(subject, (0.0, 0.0, 1.0), [kind], plan, ("hemisphere", sampler))[0][0]
+    if sampler not in BLIND:
+        raise UserError(unknown("sampler", sampler, BLIND))
+    subject = Subject((function.__qualname__, *map(repr, p)), [p])
+    mean = quantity.integrand(Quantity.HEMISPHERE, Sampler(sampler), {"F": function})
+    return evaluate(subject, (0.0, 0.0, 1.0), [mean], plan, ("hemisphere", sampler))[0][0]

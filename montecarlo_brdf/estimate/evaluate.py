@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from montecarlo_brdf.compile.kernel import compiled
 from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import moments, work
 from montecarlo_brdf.estimate.arguments import check_samples
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.recipe import Recipe
-from montecarlo_brdf.estimate.samplers import integrand, query, suited_to
+from montecarlo_brdf.estimate.quantity import Integrand
+from montecarlo_brdf.estimate.samplers import query
 from montecarlo_brdf.estimate.subject import Subject, subject_of
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
@@ -22,22 +21,26 @@ from montecarlo_brdf.vectors import Vec
 
 
 def estimates(
-    model: Model, p: Any, fixed: Vec, names: Sequence[str], plan: Plan, label: tuple[Any, ...]
+    model: Model,
+    p: Any,
+    fixed: Vec,
+    integrands: Sequence[Integrand],
+    plan: Plan,
+    label: tuple[object, ...],
 ) -> list[list[Estimate]]:
     """Estimates of several integrands on the same points: result[channel][integrand]."""
-    functions = [integrand(n) for n in names]
-    return evaluate(subject_of(model, p), query(model, p, fixed), functions, plan, label)
+    return evaluate(subject_of(model, p), query(model, p, fixed), integrands, plan, label)
 
 
 def evaluate(
     subject: Subject,
     fixed: Sequence[float],
-    functions: Sequence[Any],
+    integrands: Sequence[Integrand],
     plan: Plan,
-    label: tuple[Any, ...],
+    label: tuple[object, ...],
     common: bool = False,
 ) -> list[list[Estimate]]:
-    """The same for any functions bound into integrands; `label` names the stream with the subject.
+    """The same for any subject; `label` names the stream with it.
 
     common: the same random numbers for every direction, so that what is searched is smooth.
     """
@@ -48,18 +51,17 @@ def evaluate(
     per_replicate = _per_replicate(plan, replicates)
     place = () if common else fixed
     key = stream(plan.seed, plan.points, *subject.identity, *label, *place)
+    suited = [i.for_lattice() if plan.points == "lattice" else i for i in integrands]
     rows = []
-    for group in _groups(subject.sets, len(functions)):
+    for group in _groups(subject.sets, len(suited)):
         layout, numbers = pack(group, moments.QUERY)
-        suited = tuple(suited_to(plan.points, f) for f in functions)
-        recipe = Recipe(plan.points, suited, subject.functions, layout)
-        entry = compiled(subject.identity[0], recipe)
-        width = len(group) * len(functions)
+        kernel = moments.kernel_of(subject.identity[0], plan.points, suited, layout)
+        width = len(group) * len(suited)
         reals = (*(*fixed, 0.0)[: moments.QUERY], *numbers)
         shape = SHAPES[plan.points](per_replicate) if plan.points in SHAPES else NONE
-        job = work.Job(entry, reals, width, key, replicates, per_replicate, shape)
+        job = work.Job(kernel, reals, width, key, replicates, per_replicate, shape)
         results = [estimate(m) for m in work.run(job, plan.threads, plan.progress, plan.sums)]
-        rows += [results[i : i + len(functions)] for i in range(0, width, len(functions))]
+        rows += [results[i : i + len(suited)] for i in range(0, width, len(suited))]
     return rows
 
 

@@ -1,19 +1,25 @@
-"""The inner loop: mean and spread of an integrand over a point set, for K parameter sets at once.
+"""The inner loop: mean and spread of integrands over a point set, for K parameter sets at once.
 
-`moments` is a template. Its capitalised names are bound by `estimate.recipe` to a point set,
-integrands and an unpacker of parameters; the result is compiled per model. Samples are taken in
-blocks of fixed size that are merged in fixed order, so that results do not depend on how the work
-is cut into calls or on the number of threads. Points of a block are made before integrands are
-evaluated: in one loop their dependent operations add up to a chain that a processor with few vector
-registers waits for (a third of the time of GGX, half of Beckmann's). Where all integrands want the
-same direction of a point, it is made before too, in up to three steps, each in a loop of its own.
-Coordinates that no integrand reads are never made.
+`moments` is a template: `kernel_of` binds it to a point set, integrands and an unpacker of
+parameters; the result is compiled per model. Samples are taken in blocks of fixed size that are
+merged in fixed order, so that results do not depend on how the work is cut into calls or on the
+number of threads. Points of a block are made before integrands are evaluated: in one loop their
+dependent operations add up to a chain that a processor with few vector registers waits for (a third
+of the time of GGX, half of Beckmann's). Where all integrands want the same direction of a point, it
+is made before too, in up to three steps, each in a loop of its own. Coordinates that no integrand
+reads are never made.
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from montecarlo_brdf.bits import smaller, u64
+from montecarlo_brdf.compile.bind import Bound, Function, bound, hole
+from montecarlo_brdf.compile.kernel import Kernel, kernel
+from montecarlo_brdf.compile.layout import Buffer, Layout, Unpack
+from montecarlo_brdf.estimate.quantity import Integrand
+from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import NONE, replicate_key
 
 BLOCK = 512
@@ -25,25 +31,26 @@ QUERY = 4
 #: numbers kept per replicate and channel: count, mean, sum of squared deviations, largest x
 STATE = 4
 
-POINTS: Any = None
-STEP_NAMES = ("STEP_ONE", "STEP_TWO", "STEP_THREE")
-STEP_ONE: Any = None
-STEP_TWO: Any = None
-STEP_THREE: Any = None
-STEPS = 1  # how many of these are taken
-STEP: Any = None
-SHAPE: Any = None
-STORE: Any = None
-FIRST: Any = None
-SECOND: Any = None
-THIRD: Any = None
-FOURTH: Any = None
-FIFTH: Any = None
-PARAMETERS: Any = None
-BUFFER: Any = None
-ROW: Any = None
-CHANNELS = 1  # parameter sets
-SLOTS = 1  # integrands
+POINTS: Any = hole()
+STEP_ONE: Any = hole()
+STEP_TWO: Any = hole()
+STEP_THREE: Any = hole()
+STEPS: Any = hole()  # how many of these are taken
+STEP: Any = hole()
+SHAPE: Any = hole()
+STORE: Any = hole()
+FIRST: Any = hole()
+SECOND: Any = hole()
+THIRD: Any = hole()
+FOURTH: Any = hole()
+FIFTH: Any = hole()
+PARAMETERS: Any = hole()
+BUFFER: Any = hole()
+ROW: Any = hole()
+CHANNELS: Any = hole()  # parameter sets
+SLOTS: Any = hole()  # integrands
+#: what a kernel calls its integrands
+NAMES = ("FIRST", "SECOND", "THIRD", "FOURTH", "FIFTH")
 
 
 def moments(ints: Any, reals: Any, out: Any) -> None:
@@ -98,6 +105,11 @@ def advance(source: Any, target: Any, m: int, query: Any) -> None:
         ) = STEP(row(source, j), query)  # fmt: skip
 
 
+def as_made(u: Any, given: Any) -> Any:
+    """In place of a step that is not needed."""
+    return u
+
+
 def shaped(ints: Any) -> Any:
     """The shape of a point set that has one."""
     return u64(ints[5]), u64(ints[6]), u64(ints[7]), u64(ints[8]), u64(ints[9])
@@ -149,3 +161,61 @@ def merge_block(x: Any, start: int, m: int, out: Any, at: int) -> None:
     out[at + 2] += (squares - total * total / m) + shift * (shift * (count * m / merged))
     largest = origin - least
     out[at + 3] = out[at + 3] if largest <= out[at + 3] else largest
+
+
+def kernel_of(model: str, points: str, integrands: Sequence[Integrand], layout: Layout) -> Kernel:
+    """The kernel of means of up to five integrands of a model."""
+    return kernel(model, moments, **_names(points, integrands, layout))
+
+
+def template_of(points: str, integrands: Sequence[Integrand], layout: Layout) -> Bound:
+    """The same for other templates to call."""
+    return bound(moments, **_names(points, integrands, layout))
+
+
+def _names(points: str, integrands: Sequence[Integrand], layout: Layout) -> dict[str, object]:
+    steps, channels, slots = _steps(integrands), len(layout.places), len(integrands)
+    return {
+        "POINTS": _point_set(points, integrands),
+        "STEPS": len(steps),
+        **_advances(steps),
+        "SHAPE": shaped if points in point_sets.SHAPES else shapeless,
+        "STORE": _store(integrands, bool(steps)),
+        "PARAMETERS": Unpack(layout),
+        "BUFFER": Buffer(ROOM * channels * slots),
+        "ROW": Buffer(ROOM),
+        "CHANNELS": channels,
+        "SLOTS": slots,
+    }
+
+
+def _point_set(points: str, integrands: Sequence[Integrand]) -> Function:
+    """The points; of Sobol's only the coordinates that the integrands use."""
+    used = max(i.coordinates for i in integrands)
+    if points == "sobol" and used < point_sets.DIMENSIONS:
+        return point_sets.sobol_plane if used > 2 else point_sets.sobol_pair
+    found: Function = getattr(point_sets, points)
+    return found
+
+
+def _steps(integrands: Sequence[Integrand]) -> Sequence[Function]:
+    """From points to directions, if all integrands want the same of them and no more."""
+    first, *others = {i.steps for i in integrands}
+    return () if others else first
+
+
+def _advances(steps: Sequence[Function]) -> dict[str, Bound]:
+    """What takes each step for a block, and in place of those not needed something typed."""
+    made = [bound(advance, STEP=step) for step in steps]
+    spare = bound(advance, STEP=as_made)
+    names = ("STEP_ONE", "STEP_TWO", "STEP_THREE")
+    return dict(zip(names, [*made, *[spare] * (len(names) - len(made))], strict=True))
+
+
+def _store(integrands: Sequence[Integrand], made: bool) -> Bound:
+    """A function that evaluates each integrand into its own slot."""
+    if len(integrands) > len(NAMES):
+        raise ValueError(f"{len(integrands)} integrands in one kernel; {len(NAMES)} are allowed")
+    slots = [i.made if made else i.template for i in integrands]
+    spare = [slots[0]] * (len(NAMES) - len(slots))  # typed, never called
+    return bound(store, SLOTS=len(slots), **dict(zip(NAMES, slots + spare, strict=True)))

@@ -6,23 +6,24 @@ Arrays of directions have the shape (n, 3), one unit vector per row.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
-from montecarlo_brdf.compile import kernel
-from montecarlo_brdf.compile.bind import Specialiser
-from montecarlo_brdf.compile.kernel import compiled
-from montecarlo_brdf.compile.layout import Layout, pack, unpacker
-from montecarlo_brdf.compile.native import NativeKernel
-from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.estimate import paced
+from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.kernel import kernel
+from montecarlo_brdf.compile.layout import Unpack, pack
+from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.model import Model
 
-PARAMETERS: Any = None
-FUNCTION: Any = None
-WRITE: Any = None
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
 
-TOGETHER = 256  # numbers in each LINE of a template that goes step by step
+    Array = NDArray[np.float64]
+
+PARAMETERS: Any = hole()
+FUNCTION: Any = hole()
+WRITE: Any = hole()
+
 DRAWN = 4  # numbers per draw: x, y, z and the weight, NaN if the sampler returns none
 
 
@@ -55,70 +56,41 @@ def write_weighted(w: Any, out: Any, at: Any) -> None:
     out[at], out[at + 1], out[at + 2], out[at + 3] = w[0], w[1], w[2], w[3]
 
 
-class Listing(NamedTuple):
-    """All that a pointwise kernel is made of."""
-
-    template: Any
-    bound: Mapping[str, Any]
-    layout: Layout
-
-    def key(self) -> str:
-        """Hash of everything the machine code depends on."""
-        content = kernel.fingerprint(self.layout)
-        content.add(self.template, self.bound)
-        return content.hexdigest()
-
-    def parts(self) -> Any:
-        """Template, functions and layout."""
-        return self.template, frozenset(self.bound.items()), self.layout
-
-    def assemble(self, special: Specialiser) -> Any:
-        """The template with everything bound."""
-        unpack = unpacker(self.layout)
-        made = {"PARAMETERS": unpack, "LINE": kernel.buffer(TOGETHER)}
-        return special.clone(self.template, {**self.bound, **made})
-
-
 class Pointwise:
     """f, sample and pdf of a model with one parameter set, on arrays."""
 
     def __init__(self, model: Model, p: Any) -> None:
         self.model = model.of(p)
-        self.layout, self._numbers = pack([self.model.prepared(p)], 0)
+        layout, self._numbers = pack([self.model.prepared(p)], 0)
+        self._unpack = Unpack(layout)
 
-    def f(self, wo: Any, wi: Any) -> Any:
+    def f(self, wo: ArrayLike, wi: ArrayLike) -> Array:
         """f(wo, wi) in 1/sr: (n,) values for (n, 3) directions; wo or wi may be a single one."""
-        return self._values(self.model.f, wo, wi)
+        return self._run(values, wo, wi, 1, FUNCTION=self.model.f)[:, 0]
 
-    def pdf(self, wo: Any, wi: Any) -> Any:
+    def pdf(self, wo: ArrayLike, wi: ArrayLike) -> Array:
         """pdf(wo, wi) in 1/sr."""
-        return self._values(self.model.pdf, wo, wi)
+        return self._run(values, wo, wi, 1, FUNCTION=self.model.pdf)[:, 0]
 
-    def sample(self, wo: Any, u: Any) -> tuple[Any, Any]:
+    def sample(self, wo: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
         """Directions (n, 3) drawn for numbers u (n, 3), and their weights, NaN where none is
         returned."""
-        from montecarlo_brdf.estimate.probe import returns_weight
-
-        write = write_weighted if returns_weight(self.model) else write_direction
-        bound = {"FUNCTION": self.model.sample, "WRITE": write}
-        out = self._run(Listing(draws, bound, self.layout), wo, u, DRAWN)
+        write = write_weighted if weighted(self.model) else write_direction
+        out = self._run(draws, wo, u, DRAWN, FUNCTION=self.model.sample, WRITE=write)
         return out[:, :3], out[:, 3]
 
-    def _values(self, function: Any, wo: Any, wi: Any) -> Any:
-        return self._run(Listing(values, {"FUNCTION": function}, self.layout), wo, wi, 1)[:, 0]
-
-    def _run(self, listing: Listing, a: Any, b: Any, width: int) -> Any:
+    def _run(
+        self, template: Any, a: ArrayLike, b: ArrayLike, width: int, **names: object
+    ) -> Array:
         import numpy as np
 
-        kernel: NativeKernel = compiled(self.model.name, listing)
+        call = kernel(self.model.name, template, PARAMETERS=self._unpack, **names)
         a, b = np.atleast_2d(a), np.atleast_2d(b)
         many, before = len(b) if len(a) == 1 else len(a), len(self._numbers)
         data = np.empty(before + 6 * many)
         pairs = data[before:].reshape(many, 6)
         data[:before], pairs[:, :3], pairs[:, 3:] = self._numbers, a, b
         out = np.full((many, width), np.nan)
-        for k, count in paced.pieces(kernel, many):
-            ints = np.array([count, before + 6 * k], dtype=np.int64)
-            if kernel(ints.ctypes.data, data.ctypes.data, out[k:].ctypes.data) != 0:
-                raise ModelError(f"model {self.model.name} raised an exception while evaluated")
+        for k, count in call.pieces(many):
+            call.on([count, before + 6 * k], data, out[k:])
         return out

@@ -1,23 +1,19 @@
-"""Coordinates on the hemisphere of wi that follow the lobe: half-vector slope and azimuth.
-
-With H = wi + wo, t = tan(theta_h) and azimuth phi_h against the plane of incidence, the horizon
-mu_i = 0 is the curve t_max(phi) = T cos(phi) + sqrt(T^2 cos^2(phi) + 1), T = tan(theta_o). So
-
-    x = log(1 + (t/s)^2) / log(1 + (t_max/s)^2),   b = phi_h/(2 pi),   (x, b) in [0, 1)^2
-
-covers exactly the hemisphere, gives every scale from s to the horizon the same room, and turns a
-lobe of any width into a smooth function. dw = 4 (h.v) cos^3(theta_h) t dt dphi (Walter et al.
-2007).
-"""
+"""Deterministic integrals over the hemisphere, in coordinates that follow a lobe (sampling.slopes):
+nodes grow until two grids agree, and probes tell what both may have missed."""
 
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-Array = Any
+from montecarlo_brdf.compile.kernel import kernel
+from montecarlo_brdf.sampling.slopes import coordinates, direction
+
+Array = NDArray[np.float64]
 SMALLEST = 1e-7
 #: A value so many times as large as any at the nodes around it belongs to what they have missed.
 MISSED = 10.0
@@ -25,59 +21,51 @@ MISSED = 10.0
 Probes = tuple[Array, Array]
 
 
+def directions_at(ints: Any, reals: Any, out: Any) -> None:
+    """out[4 j ...] = direction and area of the j-th (x, b); ints = (n,), reals = (wo, scale, all
+    (x, b))."""
+    wo, scale = (reals[0], reals[1], reals[2]), reals[3]
+    for j in range(ints[0]):
+        x, b = reals[4 + 2 * j], reals[5 + 2 * j]
+        out[4 * j], out[4 * j + 1], out[4 * j + 2], out[4 * j + 3] = direction(x, b, wo, scale)
+
+
+def coordinates_at(ints: Any, reals: Any, out: Any) -> None:
+    """out[2 j ...] = (x, b) of the j-th direction."""
+    wo, scale = (reals[0], reals[1], reals[2]), reals[3]
+    for j in range(ints[0]):
+        at = 4 + 3 * j
+        w = (reals[at], reals[at + 1], reals[at + 2])
+        out[2 * j], out[2 * j + 1] = coordinates(w, wo, scale)
+
+
 class Coordinates:
     """The map between (x, b) and wi for a fixed wo; `scale` is the smallest slope of interest."""
 
     def __init__(self, wo: Array, scale: float) -> None:
         self.wo = np.asarray(wo, dtype=float)
-        self.mu = float(self.wo[2])
-        self.sine = float(np.hypot(self.wo[0], self.wo[1]))
-        self.turn = self.wo[:2] / self.sine if self.sine > 0.0 else np.array([1.0, 0.0])
         self.scale = max(float(scale), SMALLEST)
 
-    def horizon(self, cos_phi: Array) -> Array:
-        """t_max, without cancellation on either side."""
-        k = self.sine / self.mu * cos_phi
-        root = np.abs(k) + np.sqrt(k * k + 1.0)
-        return np.where(k >= 0.0, root, 1.0 / root)
+    @property
+    def place(self) -> tuple[float, ...]:
+        """What compiled code knows of them."""
+        return (*map(float, self.wo), self.scale)
 
     def directions(self, x: Array, b: Array) -> tuple[Array, Array]:
         """(wi, dw/dx db) for coordinates in (0, 1): wi has shape (n, 3)."""
-        phi = 2.0 * np.pi * b
-        cos_phi, sin_phi = np.cos(phi), np.sin(phi)
-        t_max = self.horizon(cos_phi)
-        s2 = self.scale**2
-        span = np.log1p(t_max**2 / s2)
-        t2 = s2 * np.expm1(x * span)
-        t = np.sqrt(t2)
-        to_horizon = s2 * np.exp(x * span) * np.expm1((1.0 - x) * span) / (t_max + t)
-        hz = 1.0 / np.sqrt(1.0 + t2)
-        hv = hz * (self.mu + self.sine * cos_phi * t)
-        h = np.stack([t * cos_phi, t * sin_phi, np.ones_like(t)], axis=-1) * hz[..., None]
-        wi = 2.0 * hv[..., None] * h - np.array([self.sine, 0.0, self.mu])
-        wi[..., 2] = self.mu * to_horizon * (t + 1.0 / t_max) / (1.0 + t2)
-        wi /= np.sqrt(np.sum(wi * wi, axis=-1))[..., None]
-        jacobian = 4.0 * hv * hz**3 * 0.5 * s2 * np.exp(x * span) * span * 2.0 * np.pi
-        return self._to_frame(wi), jacobian
+        out = self._map(directions_at, np.stack([x, b], axis=-1), 4)
+        return out[:, :3], out[:, 3]
 
     def coordinates(self, wi: Array) -> tuple[Array, Array]:
         """(x, b) of directions (n, 3) above the horizon."""
-        h = np.asarray(wi) + self.wo
-        along = h[:, 0] * self.turn[0] + h[:, 1] * self.turn[1]
-        across = h[:, 1] * self.turn[0] - h[:, 0] * self.turn[1]
-        slope = np.hypot(along, across)
-        cos_phi = np.where(slope > 0.0, along / np.where(slope > 0.0, slope, 1.0), 1.0)
-        span = np.log1p((self.horizon(cos_phi) / self.scale) ** 2)
-        x = np.log1p((slope / h[:, 2] / self.scale) ** 2) / span
-        return np.clip(x, 0.0, 1.0), np.mod(np.arctan2(across, along) / (2.0 * np.pi), 1.0)
+        out = self._map(coordinates_at, np.asarray(wi), 2)
+        return np.clip(out[:, 0], 0.0, 1.0), np.mod(out[:, 1], 1.0)
 
-    def _to_frame(self, w: Array) -> Array:
-        """From the plane of incidence back to the azimuth of wo."""
-        c, s = self.turn
-        turned = w.copy()
-        turned[..., 0] = c * w[..., 0] - s * w[..., 1]
-        turned[..., 1] = s * w[..., 0] + c * w[..., 1]
-        return turned
+    def _map(self, template: Callable[[Any, Any, Any], None], rows: Array, width: int) -> Array:
+        out = np.empty((len(rows), width))
+        reals = np.concatenate([self.place, rows.ravel()])
+        kernel("", template).on([len(rows)], reals, out)
+        return out
 
 
 class Integral(NamedTuple):

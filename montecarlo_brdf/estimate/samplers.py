@@ -5,59 +5,52 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-from montecarlo_brdf.estimate import charted, integrands, probe
-from montecarlo_brdf.estimate.recipe import Wrapped
+from montecarlo_brdf.estimate import probe, quantity
+from montecarlo_brdf.estimate.quantity import Integrand, Quantity
+from montecarlo_brdf.estimate.subject import functions_of
 from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec
 
-SAMPLERS = ("uniform", "cosine", "own")
+BLIND = (Sampler.UNIFORM, Sampler.COSINE)  # to what the model is
+SAMPLERS = (*BLIND, Sampler.OWN)
+LOBES = {"half vector": Sampler.HALF_VECTOR, "mirror": Sampler.MIRROR}
 
 
-def charts_of(model: Model) -> tuple[str, ...]:
+def charts_of(model: Model) -> tuple[Sampler, ...]:
     """The charts fitted to what the model declares: its lobe, its kinks."""
-    return (*filter(None, (lobe_kind(model),)), *(("panels",) if model.kinks else ()))
+    lobe = lobe_chart(model)
+    return (*((lobe,) if lobe else ()), *((Sampler.PANELS,) if model.kinks else ()))
 
 
-def lobe_kind(model: Model) -> str:
-    """ "half_vector", "mirror" or "": the chart that fits the lobe that the model declares."""
-    kind = model.lobe[0].replace(" ", "_") if isinstance(model.lobe, tuple) else ""
-    return kind if kind in charted.CHARTS else ""
+def lobe_chart(model: Model) -> Sampler | None:
+    """The chart that fits the lobe that the model declares."""
+    return LOBES.get(model.lobe[0].replace("_", " ")) if isinstance(model.lobe, tuple) else None
 
 
-def samplers_of(model: Model, quantity: str = "albedo") -> tuple[str, ...]:
+def samplers_of(model: Model, of: Quantity = Quantity.ALBEDO) -> tuple[Sampler, ...]:
     """The samplers by which a quantity of this model can be estimated."""
-    if model.sample and (model.pdf or (_weighted(model) and quantity != "reverse")):
+    if model.sample and (model.pdf or (weighted(model) and of is not Quantity.REVERSE)):
         return SAMPLERS
-    return SAMPLERS[:2]
+    return BLIND
 
 
 @functools.lru_cache(maxsize=256)
-def _weighted(model: Model) -> bool:
+def weighted(model: Model) -> bool:
+    """Whether the model's sampler returns its weight f cos/pdf."""
     return probe.returns_weight(model)
 
 
-def integrand_name(model: Model, quantity: str, sampler: str) -> str:
-    """The integrand for a quantity and sampler; a sampler that returns its weight uses that."""
-    weighted = sampler == "own" and _weighted(model) and quantity != "reverse"
-    return f"{quantity}_{'weighted' if weighted else sampler}"
-
-
-def integrand(name: str) -> Any:
-    """The integrand called `name`, plain or in a chart."""
-    return getattr(integrands, name, None) or getattr(charted, name)
-
-
-def suited_to(points: str, function: Any) -> Any:
-    """An integrand as a point set needs it: periodic for a lattice."""
-    quantity, _, sampler = function.__name__.partition("_")
-    if points != "lattice" or sampler in charted.CHARTS:
-        return function
-    twice = quantity == "bihemispherical"
-    return Wrapped(charted.periodised_twice if twice else charted.periodised, function)
+def integrand(model: Model, of: Quantity, sampler: Sampler | str, **more: object) -> Integrand:
+    """A quantity by a sampler or chart; one that returns its weight uses that. `more` names than
+    the model's functions may be bound."""
+    sampler = Sampler(sampler)
+    own = sampler is Sampler.OWN and of not in (Quantity.REVERSE, Quantity.REJECTED)
+    return quantity.integrand(of, sampler, {**functions_of(model), **more}, own and weighted(model))
 
 
 def query(model: Model, p: Any, fixed: Vec) -> tuple[float, ...]:
-    """What integrands get as `fixed`: the given direction and the width of the narrowest lobe."""
-    if not lobe_kind(model):
+    """What integrands get as `given`: the given direction and the width of the narrowest lobe."""
+    if model.lobe is None or lobe_chart(model) is None:
         return (*fixed, 0.0)
-    return (*fixed, min(float(model.lobe[1](one)) for one in channels(p)))
+    return (*fixed, min(float(model.lobe.width(one)) for one in channels(p)))

@@ -6,31 +6,27 @@ places, and the same nodes u serve all of them: differences between places are n
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from montecarlo_brdf.compile import kernel
-from montecarlo_brdf.compile.bind import Specialiser
-from montecarlo_brdf.compile.kernel import compiled
-from montecarlo_brdf.compile.layout import (
-    Layout,
-    following,
-    numbers_of,
-    place_row,
-    shape_of,
-    unpacker,
-)
-from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.estimate import integrands, paced
-from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
-from montecarlo_brdf.estimate.slopes import albedo_slopes, reverse_slopes
-from montecarlo_brdf.estimate.subject import functions_of
+from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.kernel import Kernel, kernel
+from montecarlo_brdf.compile.layout import Buffer, Row, Unpack, following, numbers_of, shape_of
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import integrand, samplers_of
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.directions import Sampler
 
-PARAMETERS: Any = None
-INTEGRAND: Any = None
-FUNCTION: Any = None
-ROW: Any = None
-LINE: Any = None
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+PARAMETERS: Any = hole()
+INTEGRAND: Any = hole()
+FUNCTION: Any = hole()
+ROW: Any = hole()
+LINE: Any = hole()
 
 NODE = 4  # numbers of a node: u[0], u[1], u[4] and its weight
 PLACE = 4  # numbers of a place before its parameters: a direction and what the integrand needs
@@ -67,50 +63,15 @@ def pairs(ints: Any, reals: Any, out: Any) -> None:
         out[j] = FUNCTION((at[0], at[1], at[2]), (at[3], at[4], at[5]), p)
 
 
-class Listing(NamedTuple):
-    """All that a kernel over places is made of."""
-
-    template: Any  # means or pairs
-    function: Any  # an integrand, or f
-    functions: Mapping[str, Any]  # what F, SAMPLE, PDF stand for in it
-    layout: Layout
-
-    def key(self) -> str:
-        """Hash of everything the machine code depends on."""
-        content = kernel.fingerprint(self.layout)
-        content.add(self.template)
-        content.add(self.function, self.functions)
-        return content.hexdigest()
-
-    def parts(self) -> Any:
-        """Template, functions and layout."""
-        return self.template, self.function, frozenset(self.functions.items()), self.layout
-
-    def assemble(self, special: Specialiser) -> Any:
-        """The template with everything bound."""
-        name = "INTEGRAND" if self.template is means else "FUNCTION"
-        function = special.bind(self.function, self.functions) if self.functions else self.function
-        unpack = unpacker(self.layout)
-        return special.clone(
-            self.template,
-            {
-                name: function,
-                "PARAMETERS": unpack,
-                "ROW": place_row(),
-                "LINE": kernel.buffer(TOGETHER),
-            },
-        )
-
-
 class Rows(NamedTuple):
     """Parameter sets as rows of numbers, one per place, as a kernel takes them."""
 
     base: Any
-    values: Any  # (n, parameters)
+    values: Array  # (n, parameters)
     shape: Any
-    numbers: Any  # (n, numbers of a set as the model gets it)
+    numbers: Array  # (n, numbers of a set as the model gets it)
 
-    def columns(self, fields: Any) -> dict[str, Any]:
+    def columns(self, fields: Any) -> dict[str, Array]:
         """The columns whose names another NamedTuple has too."""
         names = self.base._fields
         return {n: self.values[:, names.index(n)] for n in fields._fields if n in names}
@@ -138,38 +99,36 @@ def rows(model: Model, columns: Mapping[str, Any], base: Any, n: int) -> Rows:
     return Rows(base, table, shape_of(ready[0]), numbers[which.reshape(-1)])
 
 
-def mean_values(model: Model, quantity: str, nodes: Any, places: Any, sets: Rows) -> Any:
-    """A ("albedo") or R ("reverse") at (n, 4) places: by the model's own sampler with nodes in
-    [0, 1)^3, or in slopes of the half vector where it has none."""
-    name = integrand_name(model, quantity, "own")
-    own = samplers_of(model, quantity)[-1] == "own"
-    slopes_of = albedo_slopes if quantity == "albedo" else reverse_slopes
-    function = getattr(integrands, name) if own else slopes_of
-    return _run(model, (means, function, functions_of(model)), nodes, places, sets)
+def mean_values(model: Model, of: Quantity, nodes: Array, places: Array, sets: Rows) -> Array:
+    """A or R at (n, 4) places: by the model's own sampler with nodes in [0, 1)^3, or in slopes of
+    the half vector where it has none."""
+    own = Sampler.OWN in samplers_of(model, of)
+    mean = integrand(model, of, Sampler.OWN if own else Sampler.SLOPES)
+    names = {"INTEGRAND": mean.template, "LINE": Buffer(TOGETHER), "ROW": Row()}
+    unpack = Unpack(following(sets.shape, places.shape[1]))
+    return _run(kernel(model.name, means, PARAMETERS=unpack, **names), nodes, places, sets)
 
 
-def pair_values(model: Model, wo: Any, wi: Any, sets: Rows) -> Any:
+def pair_values(model: Model, wo: Array, wi: Array, sets: Rows) -> Array:
     """f(wo, wi) for (n, 3) directions, each pair with parameters of its own."""
     import numpy as np
 
     places = np.concatenate([wo, wi], axis=1)
-    return _run(model, (pairs, model.f, {}), np.zeros((0, NODE)), places, sets)
+    unpack = Unpack(following(sets.shape, places.shape[1]))
+    call = kernel(model.name, pairs, PARAMETERS=unpack, FUNCTION=model.f, ROW=Row())
+    return _run(call, np.zeros((0, NODE)), places, sets)
 
 
-def _run(model: Model, made_of: tuple[Any, Any, Any], nodes: Any, places: Any, sets: Rows) -> Any:
+def _run(call: Kernel, nodes: Array, places: Array, sets: Rows) -> Array:
     import numpy as np
 
-    layout = following(sets.shape, places.shape[1])
-    kernel = compiled(model.name, Listing(*made_of, layout))
     table = np.concatenate([places, sets.numbers], axis=1)
     stride = table.shape[1]
     data = np.ascontiguousarray(np.concatenate([nodes.ravel(), table.ravel()]), dtype=np.float64)
     out = np.zeros(len(places))
     for node in range(0, max(1, len(nodes)), CHUNK):
         many = max(1, min(CHUNK, len(nodes) - node))
-        for start, count in paced.pieces(kernel, len(places), many):
+        for start, count in call.pieces(len(places), many):
             first = nodes.size + start * stride
-            ints = np.array([count, many, first, stride, NODE * node], dtype=np.int64)
-            if kernel(ints.ctypes.data, data.ctypes.data, out[start:].ctypes.data) != 0:
-                raise ModelError(f"model {model.name} raised an exception while evaluated")
+            call.on([count, many, first, stride, NODE * node], data, out[start:])
     return out

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.model import Model, channels
 
 
 class Subject(NamedTuple):
-    """What is integrated: a name for its streams, functions to bind, and K parameter sets."""
+    """What is integrated: a name for its streams, and K parameter sets."""
 
     identity: tuple[str, ...]
-    functions: Mapping[str, Any]
     sets: list[Any]
 
 
-def subject_of(model: Model, p: Any, **more: Any) -> Subject:
-    """A model with one parameter set, colours channel by channel; `more` functions to bind."""
-    functions = {**functions_of(model), **more}
-    return Subject(identity_of(model, p), functions, [model.prepared(c) for c in channels(p)])
+def subject_of(model: Model, p: Any) -> Subject:
+    """A model with one parameter set, colours channel by channel."""
+    return Subject(identity_of(model, p), [model.prepared(c) for c in channels(p)])
 
 
 def identity_of(model: Model, p: Any) -> tuple[str, ...]:

@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.ends import Ends, at_ends
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, Property
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.vectors import Vec
 
@@ -29,9 +30,9 @@ FEWEST_REJECTED = 16.0
 #: Means whose squares are numbers.
 SQUARED = (1e-150, 1e150)
 #: mu^c/pdf for these densities
-SCALE = {"uniform": 6.283185307179586, "cosine": 3.141592653589793}
+SCALE = {Sampler.UNIFORM: 2.0 * math.pi, Sampler.COSINE: math.pi}
 #: c in pdf ~ mu^c near the horizon
-DENSITY = {"uniform": 0.0, "cosine": 1.0}
+DENSITY = {Sampler.UNIFORM: 0.0, Sampler.COSINE: 1.0}
 
 
 class Measurement(NamedTuple):
@@ -44,22 +45,27 @@ class Measurement(NamedTuple):
     estimate: Estimate
     unfit: str | None = None
     bound: float | None = None
+    needs: float = 0.0  # samples that would make it fit, 0 if that is not known
 
     def half_width(self, level: float) -> float:
         """Half the width of the interval that misses the truth with probability `level` at most."""
         return self.estimate.half_width(level) if self.bound is None else self.bound
 
+    def times(self, factor: float) -> Measurement:
+        """The measurement of `factor` > 0 times the number."""
+        bound = None if self.bound is None else factor * self.bound
+        return self._replace(estimate=self.estimate.times(factor), bound=bound)
 
-class Unfit(str):
+
+class Unfit(NamedTuple):
     """Why an estimate must not be believed, and how many samples would cure it, 0 if unknown."""
 
-    needs = 0.0
+    reason: str
+    needs: float = 0.0
 
-
-def _unfit(reason: str, needs: float) -> Unfit:
-    found = Unfit(f"{reason}: needs about {needs:.0e}" if needs < math.inf else reason)
-    found.needs = needs
-    return found
+    def __str__(self) -> str:
+        curable = 0.0 < self.needs < math.inf
+        return f"{self.reason}: needs about {self.needs:.0e}" if curable else self.reason
 
 
 class Sight(NamedTuple):
@@ -71,7 +77,7 @@ class Sight(NamedTuple):
     signed: bool = False  # whether f may be negative: its mean then is small for no lack of samples
     ends: Ends = Ends()  # of the own sampler's numbers
 
-    def largest(self, sampler: str) -> float:
+    def largest(self, sampler: Sampler) -> float:
         """The largest f cos/pdf to be expected."""
         return SCALE[sampler] * (self.highest if DENSITY[sampler] else self.brightest)
 
@@ -82,12 +88,12 @@ def look(model: Model, one: Any, fixed: Vec) -> Sight:
     however often a claim takes more samples."""
     ready = model.prepared(one)
     exponent = probe.horizon_exponent(model, ready, fixed)
-    signed = "positivity" in model.disclaims
+    signed = Property.POSITIVITY in model.disclaims
     ends = at_ends(model, ready, fixed)
     return Sight(*probe.highest(model, ready, fixed), exponent, signed, ends)
 
 
-def moment_is_finite(moment: int, sampler: str, exponent: float) -> bool:
+def moment_is_finite(moment: int, sampler: Sampler, exponent: float) -> bool:
     """E[(f cos/pdf)^moment] with f ~ mu^-s, cos/pdf ~ mu^(1-c), pdf ~ mu^c near mu = 0."""
     c = DENSITY[sampler]
     return moment * (exponent - 1.0 + c) < 1.0 + c - 1e-3
@@ -102,7 +108,8 @@ def measured(
     """
     if sampler not in SCALE:
         e = heeding_ends(heeding_rejected(e, sight.ends.rejected), sight.ends)
-    return Measurement(sampler, e, reason_unfit(sampler, e, sight, second))
+    unfit = reason_unfit(sampler, e, sight, second)
+    return Measurement(sampler, e, str(unfit) if unfit else None, needs=unfit.needs if unfit else 0)
 
 
 def heeding_rejected(e: Estimate, share: float) -> Estimate:
@@ -129,57 +136,70 @@ def heeding_ends(e: Estimate, ends: Ends) -> Estimate:
     return e._replace(stderr=max(e.stderr, known * abs(e.mean)))
 
 
-def reason_unfit(sampler: str, e: Estimate, sight: Sight, second: Estimate | None) -> str | None:
+def reason_unfit(
+    sampler: str, e: Estimate, sight: Sight, second: Estimate | None
+) -> Unfit | None:
     """Why the estimate by `sampler` must not be believed, or None; arguments as in `measured`."""
     if e.mean == 0.0 and sight.highest > 0.0 and sampler in SCALE:
-        return f"a lobe that {sampler} sampling did not hit once in {e.samples} samples"
+        return Unfit(f"a lobe that {sampler} sampling did not hit once in {e.samples} samples")
     if not e.mean > 0.0:
         return None
     if not SQUARED[0] < e.mean < SQUARED[1]:
-        return f"values of {e.mean:.0e}, whose squares leave the range of numbers"
+        return Unfit(f"values of {e.mean:.0e}, whose squares leave the range of numbers")
     if sampler not in SCALE:
         return _few(sampler, e, e.second_moment, signed=sight.signed)
+    squares = max(e.second_moment, second.mean if second else 0.0)
+    return _blind(Sampler(sampler), e, squares, sight)
+
+
+def _blind(sampler: Sampler, e: Estimate, squares: float, sight: Sight) -> Unfit | None:
+    """Of directions that know nothing of the model."""
     if not moment_is_finite(2, sampler, sight.exponent):
         grows = f"f grows like mu^-{sight.exponent:.2f}"
-        return _unfit(f"infinite variance under {sampler} sampling: {grows}", math.inf)
+        return Unfit(f"infinite variance under {sampler} sampling: {grows}", math.inf)
     if not moment_is_finite(4, sampler, sight.exponent):
         useless = "its error bar can not be trusted"
-        return _unfit(f"infinite fourth moment under {sampler} sampling: {useless}", math.inf)
+        return Unfit(f"infinite fourth moment under {sampler} sampling: {useless}", math.inf)
     expected = sight.largest(sampler)
-    if expected > LARGEST_SHARE * e.samples * e.mean and not sight.signed:
-        need = expected / (LARGEST_SHARE * e.mean)
-        return _unfit(f"a lobe that {sampler} sampling hardly hits", need)
-    squares = max(e.second_moment, second.mean if second else 0.0)
-    return _few(sampler, e, squares, expected, sight.signed)
+    hardly = None if sight.signed else hardly_hit(sampler, e, expected)
+    return hardly or _few(sampler, e, squares, expected, sight.signed)
+
+
+def hardly_hit(sampler: str, e: Estimate, expected: float) -> Unfit | None:
+    """Whether a value as large as `expected` would make more of the total than one may."""
+    if expected > LARGEST_SHARE * e.samples * e.mean:
+        need = expected / (LARGEST_SHARE * e.mean) if e.mean > 0.0 else 0.0
+        return Unfit(f"a lobe that {sampler} sampling hardly hits", need)
+    return None
 
 
 def _few(
     sampler: str, e: Estimate, squares: float, highest: float = 0.0, signed: bool = False
-) -> str | None:
+) -> Unfit | None:
     """Why so few samples carry the mean, or its spread, that its error bar must not be believed,
     or None; squares: E[x^2]; highest: the largest x expected."""
-    if not signed and (reason := _few_carry(sampler, e, squares)):
+    if not signed and (reason := few_carry(sampler, e, squares)):
         return reason
     return _few_spread(sampler, e, squares, highest)
 
 
-def _few_carry(sampler: str, e: Estimate, squares: float) -> str | None:
-    """The mean of what is never negative."""
+def few_carry(sampler: str, e: Estimate, squares: float) -> Unfit | None:
+    """The mean of what is never negative; squares: E[x^2]."""
     if e.largest > LARGEST_SHARE * e.samples * e.mean:
         share = e.largest / (e.samples * e.mean)
-        return f"one sample holds {share:.0%} of the total under {sampler} sampling"
+        return Unfit(f"one sample holds {share:.0%} of the total under {sampler} sampling")
     effective = e.samples * e.mean**2 / squares
     if effective < FEWEST:
         need = e.samples * FEWEST / effective
-        return _unfit(f"{effective:.0f} effective samples under {sampler} sampling", need)
+        return Unfit(f"{effective:.0f} effective samples under {sampler} sampling", need)
     return None
 
 
-def _few_spread(sampler: str, e: Estimate, squares: float, highest: float) -> str | None:
+def _few_spread(sampler: str, e: Estimate, squares: float, highest: float) -> Unfit | None:
     """The spread."""
     most = max(e.largest, highest) - e.mean
     spread = e.samples * (squares - e.mean**2)
     if most > SMALLEST * e.mean and most**2 > LARGEST_SHARE * spread:
         need = e.samples * most**2 / (LARGEST_SHARE * spread) if spread > 0.0 else math.inf
-        return _unfit(f"few samples make the spread under {sampler} sampling", need)
+        return Unfit(f"few samples make the spread under {sampler} sampling", need)
     return None

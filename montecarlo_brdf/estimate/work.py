@@ -14,8 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, NamedTuple
 
-from montecarlo_brdf.compile.native import NativeKernel
-from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.compile.kernel import Kernel
 from montecarlo_brdf.estimate.moments import BLOCK, STATE
 from montecarlo_brdf.sampling.keys import NONE, Shape
 from montecarlo_brdf.statistics import Moments, merged
@@ -31,7 +30,7 @@ Progress = Callable[[float], None]
 class Job(NamedTuple):
     """What to compute: `samples` points in each of `replicates` randomisations of one stream."""
 
-    kernel: NativeKernel
+    kernel: Kernel
     reals: Sequence[float]
     width: int  # numbers of results: channels times integrands
     key: int
@@ -118,7 +117,7 @@ class Ladder:
 
     def __init__(
         self,
-        kernel: NativeKernel,
+        kernel: Kernel,
         reals: Sequence[float],
         width: int,
         key: int,
@@ -141,9 +140,8 @@ class Ladder:
         for skipped, many, done, size in self._pieces(count):
             self._ints[1:5] = [self._first + skipped, many, start + done, size]
             began = time.perf_counter()
-            if self._kernel(*self._at, at + skipped * self._stride) != 0:
-                raise ModelError("the model raised an exception while it was sampled")
-            self._kernel.pace = (time.perf_counter() - began) / (many * size)  # type: ignore[attr-defined]
+            self._kernel(*self._at, at + skipped * self._stride)
+            self._kernel.timed(many * size, time.perf_counter() - began)
         return out[:]
 
     def _pieces(self, count: int) -> Iterator[tuple[int, int, int, int]]:
@@ -163,8 +161,7 @@ class Ladder:
 
     def _affordable(self) -> int:
         """Samples of a call that is not too long; one block as long as nothing is known."""
-        pace = getattr(self._kernel, "pace", LONGEST)
-        return max(BLOCK, int(LONGEST / pace))
+        return max(BLOCK, self._kernel.affordable(LONGEST, BLOCK))
 
 
 def _push(stack: list[tuple[int, Moments]], moments: Moments) -> None:

@@ -12,7 +12,7 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Property
 
-#: Tolerances are stated, not discovered (design: the verdict is the product).
+#: Tolerances are stated, not discovered: docs/statistics.md.
 BOUND_TOLERANCE = 1e-5  # absolute, for "at most 1"
 AGREEMENT_TOLERANCE = 1e-4  # relative, for "equals its reference"
 

@@ -104,7 +104,7 @@ def settled(claim: MeanClaim, opinions: list[Opinion], most: int) -> bool:
 def _hopeless(claim: MeanClaim, o: Opinion, most: int) -> bool:
     e, expected = o.measurement.estimate, claim.expected
     if o.verdict == UNFIT:
-        return getattr(o.measurement.unfit, "needs", 0.0) > most
+        return o.measurement.needs > most
     if expected is None or needed(claim, o, FASTEST) <= most:
         return False
     over = e.mean - expected.value

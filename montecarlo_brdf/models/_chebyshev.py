@@ -6,7 +6,13 @@ indices of short tuples cost nothing, and the loop over samples still vectorises
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
 
 Eight = tuple[float, ...]
 
@@ -25,10 +31,10 @@ def eight_terms(k: Eight, t: float, b: float, c: float) -> tuple[float, float]:
     return b, c
 
 
-def fitted(function: Callable[[Any], Any], terms: int) -> tuple[Eight, ...]:
+def fitted(function: Callable[[Array], Array], terms: int) -> tuple[Eight, ...]:
     """The series that agrees with `function`, of arrays, at Chebyshev's points in [-1, 1], in
     eights."""
     import numpy as np
 
-    series = np.polynomial.chebyshev.chebinterpolate(function, terms - 1)
+    series = np.polynomial.chebyshev.chebinterpolate(function, terms - 1)  # type: ignore[type-var]
     return tuple(tuple(map(float, row)) for row in series.reshape(-1, 8))

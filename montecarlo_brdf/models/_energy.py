@@ -1,9 +1,10 @@
 """The energy that height-correlated GGX loses, 1 - E(mu), as a table and how it is computed.
 
-By the weak white furnace, 1 - E is an integral of positive terms: light masked on its way out, and
-reflections below the horizon. The azimuth integral of D is known in closed form (formulas.md,
-section 6); what is left is one integral over the elevation, on panels that shrink towards the
-mirror direction, the horizon and the normal.
+By the weak white furnace (Heitz 2014, "Understanding the masking-shadowing function"), 1 - E is an
+integral of positive terms: light masked on its way out, and reflections below the horizon. The
+azimuth integral of D (Walter et al. 2007, eq. 33) is elementary: `ring`. What is left is one
+integral over the elevation, on panels that shrink towards the mirror direction, the horizon and the
+normal.
 
 The table keeps the digits of 1 - E itself, which is of the order of alpha^2 at steep angles and of
 mu at the horizon. With x = mu/alpha and stretched = sqrt(mu^2 + alpha^2 (1 - mu^2)),
@@ -20,10 +21,16 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.models._chebyshev import Eight, eight_terms, fitted
 from montecarlo_brdf.special import log1p
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
 
 TERMS = 48
 STEEPEST = 1e-18  # of x: below, 1/x^2 leaves single precision
@@ -85,7 +92,7 @@ def coefficients(alpha: float) -> tuple[Eight, ...]:
     return fitted(lambda t: smooth_part(cosine_at(t, alpha), alpha), TERMS)
 
 
-def cosine_at(t: Any, alpha: float) -> Any:
+def cosine_at(t: Array, alpha: float) -> Array:
     """The cosines that the table has at t in [-1, 1]."""
     import numpy as np
 
@@ -94,7 +101,7 @@ def cosine_at(t: Any, alpha: float) -> Any:
     return np.minimum(1.0, alpha * np.expm1(-4.0 * np.log1p(-away)))
 
 
-def smooth_part(mu: Any, alpha: float) -> Any:
+def smooth_part(mu: Array, alpha: float) -> Array:
     """P."""
     import numpy as np
 
@@ -119,7 +126,7 @@ def average_lost(alpha: float) -> float:
     return float(np.sum(weights * mu * slope * missing))
 
 
-def lost_exactly(mu: Any, alpha: float) -> Any:
+def lost_exactly(mu: Array, alpha: float) -> Array:
     """1 - E at cosines mu by quadrature over the elevation of wi, down to where h meets the
     horizon. Elevations keep their digits at the horizon; at the normal alpha is what matters."""
     import numpy as np
@@ -135,10 +142,10 @@ def lost_exactly(mu: Any, alpha: float) -> Any:
     masked = mu_o * hidden / (mu_i * stretched_o + mu_o * stretched_i)
     leaving = np.where(up > 0.0, masked, 1.0) / (mu_o + stretched_o)
     parts = 0.5 * weight * np.cos(up) * ring(up, up_o, a2) * leaving
-    return np.bincount(which, parts, len(cosines)).reshape(np.shape(mu))
+    return np.bincount(which, parts, len(cosines)).reshape(np.shape(mu))  # type: ignore[return-value]
 
 
-def ring(up_i: Any, up_o: Any, a2: float) -> Any:
+def ring(up_i: Array, up_o: Array, a2: float) -> Array:
     """Integral of D over the azimuth between wi and wo, of two elevations."""
     import numpy as np
 
@@ -152,7 +159,7 @@ def ring(up_i: Any, up_o: Any, a2: float) -> Any:
     return 2.0 * a2 * (1.0 + np.sqrt(c2 / x) * k * (4.0 + 2.0 * k * mean / x))
 
 
-def panels(up_o: Any, mu: Any, alpha: float) -> tuple[Any, Any, Any]:
+def panels(up_o: Array, mu: Array, alpha: float) -> tuple[Array, Array, npt.NDArray[np.int64]]:
     """Gauss-Legendre nodes and weights on [-up_o, pi/2] of each elevation, and whose they are:
     panels double away from the peaks."""
     import numpy as np
@@ -173,7 +180,7 @@ def panels(up_o: Any, mu: Any, alpha: float) -> tuple[Any, Any, Any]:
 
 
 @functools.cache
-def legendre(n: int) -> Any:
+def legendre(n: int) -> tuple[Array, Array]:
     """Nodes and weights of Gauss and Legendre's rule on [-1, 1]."""
     import numpy as np
 

@@ -11,9 +11,20 @@ its digits, where 1 - (n.h)^2 would lose six of them.
 from __future__ import annotations
 
 import math
+from typing import Protocol
 
 from montecarlo_brdf.special import exp, log1p, turn
 from montecarlo_brdf.vectors import Vec
+
+
+class Facets(Protocol):
+    """Parameters among which are those of GGX."""
+
+    @property
+    def alpha(self) -> float: ...
+
+    @property
+    def f0(self) -> float: ...
 
 
 def half_sums(wo: Vec, wi: Vec) -> Vec:

@@ -2,9 +2,20 @@
 from __future__ import annotations
 
 import math
+from typing import Protocol
 
 from montecarlo_brdf.special import cosine_power, expm1, log1p, turn
 from montecarlo_brdf.vectors import Vec, mirrored, tangent_frame
+
+
+class Shine(Protocol):
+    """Parameters among which are those of Phong's lobe."""
+
+    @property
+    def ks(self) -> float: ...
+
+    @property
+    def n(self) -> float: ...
 
 
 def away_from_mirror(wo: Vec, wi: Vec) -> float:

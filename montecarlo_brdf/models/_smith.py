@@ -6,9 +6,10 @@ With x^2 = a exponent of the distribution:
     Blinn-Phong   mu Lambda = exp(-x^2) (c - mu R(x)/2),  x^2 = -(n+2)/2 ln(1 - mu^2)
 
 Beckmann's falls from alpha sin/(2 sqrt(pi)) like a Gaussian, and its eighth root so slowly that a
-polynomial has all of it. Blinn-Phong's R is exp(x^2) times a regularised incomplete beta function
-(formulas.md, section 6); in x it is as smooth as exp(x^2) erfc(x), for every n, and a short
-Chebyshev series has all its digits.
+polynomial has all of it. Blinn-Phong's is Heitz 2014, "Understanding the masking-shadowing
+function", eq. 72, integrated over the slopes of Blinn's distribution: R is exp(x^2) times the
+regularised incomplete beta function I_(1 - mu^2)((n+2)/2, 1/2). In x it is as smooth as
+exp(x^2) erfc(x), for every n, and a short Chebyshev series has all its digits.
 """
 from __future__ import annotations
 

@@ -14,29 +14,11 @@ Conserves energy, but loses light at high roughness.
 """
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from montecarlo_brdf.models._masking import smith
-from montecarlo_brdf.models._microfacet import (
-    beckmann_density,
-    ggx_visible_pdf,
-    half_sums,
-    sample_visible,
-    schlick,
-)
+from montecarlo_brdf.models._microfacet import beckmann_density, half_sums, schlick
 from montecarlo_brdf.models._smith import beckmann_hidden
+from montecarlo_brdf.models.ggx import Params, domain, lobe, lossless, pdf, sample, verified
 from montecarlo_brdf.vectors import Vec
-
-
-class Params(NamedTuple):
-    alpha: float = 0.3
-    f0: float = 1.0
-
-
-domain = {"alpha": (1e-4, 1.0), "f0": (0.0, 1.0)}
-verified = [Params(), Params(alpha=0.05), Params(alpha=1.0), Params(alpha=0.001, f0=0.04)]
-lossless = [Params(alpha=1e-4)]  # a mirror
-lobe = ("half vector", lambda p: p.alpha)
 
 
 def f(wo: Vec, wi: Vec, p: Params) -> float:
@@ -45,13 +27,3 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
     hidden = (beckmann_hidden(wo, p.alpha), beckmann_hidden(wi, p.alpha))
     masking = smith(h, (wo[2], wi[2]), hidden, p.alpha)
     return 0.25 * schlick(h, p.f0) * beckmann_density(h, p.alpha) * masking
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Reflection by a visible normal of GGX."""
-    return sample_visible(wo, u, p.alpha, p.alpha)
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """G1(wo) D/(4 mu_o) of GGX."""
-    return ggx_visible_pdf(wo, wi, p.alpha)

@@ -14,23 +14,15 @@ none for n < 18.707. All darken as cos^2 towards grazing.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from montecarlo_brdf.models._half_lobe import half_power_pdf, sample_half_power
 from montecarlo_brdf.models._microfacet import half_power, half_sums
 from montecarlo_brdf.models._mirror_lobe import width
+from montecarlo_brdf.models.phong import Params, domain, scales_with
 from montecarlo_brdf.special import exp2
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    ks: float = 1.0
-    n: float = 32.0
-
-
-domain = {"ks": (0.0, 1.0), "n": (0.0, 1e7)}
 verified = [Params(), Params(n=0.0), Params(n=8.764), Params(n=1e4)]
-scales_with = "ks"
 lobe = ("half vector", lambda p: width(p.n))
 
 

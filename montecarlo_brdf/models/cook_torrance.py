@@ -12,7 +12,7 @@ height-correlated); kelemen (G = mu_i mu_o/(h.v)^2); implicit (G = mu_i mu_o); n
 schlick_k_direct and schlick_k_ibl.
 fresnel: one, schlick (f0), dielectric (eta >= 1), conductor (eta, k).
 Source: Cook & Torrance 1982; Walter et al. 2007; Heitz 2014; Kelemen & Szirmay-Kalos 2001; Schlick
-1994; Karis 2013. Blinn-Phong's exact Lambda: formulas.md, section 6.
+1994; Karis 2013. Blinn-Phong's exact Lambda: the integral of Heitz 2014, eq. 72.
 Violates: energy conservation without masking (without bound at grazing), with walter for
 blinn_phong (1.25 at grazing, n = 1; 1.38 with walter_correlated), and when divided by pi
 (4/pi = 1.273 for smooth surfaces).
@@ -28,19 +28,14 @@ from montecarlo_brdf.models._fresnel import conductor, dielectric
 from montecarlo_brdf.models._microfacet import (
     beckmann_density,
     ggx_density,
-    ggx_visible_pdf,
     half_power,
     half_sums,
-    sample_visible,
     schlick,
     stretched,
 )
 from montecarlo_brdf.models._mirror_lobe import width
-from montecarlo_brdf.models._smith import (
-    beckmann_hidden,
-    blinn_phong_hidden,
-    blinn_phong_series,
-)
+from montecarlo_brdf.models._smith import beckmann_hidden, blinn_phong_hidden, blinn_phong_series
+from montecarlo_brdf.models.ggx import pdf, sample
 from montecarlo_brdf.vectors import Vec
 
 
@@ -202,13 +197,3 @@ def f(wo: Vec, wi: Vec, p: Prepared) -> float:
     h = half_sums(wo, wi)
     visible = masking(h, (wo[2], wi[2]), (hidden(wo, p), hidden(wi, p)), p.alpha)
     return fresnel(h, p) * density(h, p) * visible / normalisation()
-
-
-def sample(wo: Vec, u: Vec, p: Prepared) -> Vec:
-    """Reflection by a visible normal of GGX."""
-    return sample_visible(wo, u, p.alpha, p.alpha)
-
-
-def pdf(wo: Vec, wi: Vec, p: Prepared) -> float:
-    """G1(wo) D/(4 mu_o) of GGX."""
-    return ggx_visible_pdf(wo, wi, p.alpha)

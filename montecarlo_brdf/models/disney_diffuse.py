@@ -14,8 +14,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from montecarlo_brdf.models._cosine import pdf, sample
 from montecarlo_brdf.models._microfacet import half_sums
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
 
 
@@ -41,13 +41,3 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
     """With (h.v)^2 = |wi + wo|^2/4."""
     x = 0.5 * p.roughness * half_sums(wo, wi)[2] - 0.5
     return p.albedo / math.pi * (1.0 + x * fifth(wi[2])) * (1.0 + x * fifth(wo[2]))
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """cos(theta_i)/pi."""
-    return wi[2] / math.pi

@@ -14,23 +14,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from montecarlo_brdf.models._cosine import pdf, sample
 from montecarlo_brdf.models._rough_diffuse import fon_scale, missing, tangential_ratio
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.models.fon import Params, domain, kinks, limits, verified
 from montecarlo_brdf.vectors import Vec
 
 AVERAGE_MISSING = 6.0 / (5.0 * math.pi) - 1.0 / 6.0
-
-
-class Params(NamedTuple):
-    albedo: float = 0.8
-    roughness: float = 0.5
-
-
-domain = {"albedo": (0.0, 1.0), "roughness": (0.0, 1.0)}
-verified = [Params(), Params(albedo=1.0, roughness=1.0), Params(roughness=0.0)]
-limits = [({"roughness": 0.0}, "lambert")]
 lossless = [Params(albedo=1.0, roughness=r) for r in (0.0, 0.5, 1.0)]
-kinks = ("mu_i=mu_o", "cos_phi=0")
 
 
 class Prepared(NamedTuple):
@@ -52,13 +42,3 @@ def f(wo: Vec, wi: Vec, p: Prepared) -> float:
     """f_ss + f_ms."""
     single = p.single * (1.0 + p.roughness * tangential_ratio(wo, wi))
     return single + p.multiple * missing(wi) * missing(wo)
-
-
-def sample(wo: Vec, u: Vec, p: Prepared) -> Vec:
-    """Cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def pdf(wo: Vec, wi: Vec, p: Prepared) -> float:
-    """cos(theta_i)/pi."""
-    return wi[2] / math.pi

@@ -15,8 +15,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from montecarlo_brdf.models._cosine import pdf, sample
 from montecarlo_brdf.models._rough_diffuse import fon_scale, tangential_ratio
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
 
 
@@ -36,13 +36,3 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
     """albedo/pi A (1 + roughness s/t)."""
     shape = 1.0 + p.roughness * tangential_ratio(wo, wi)
     return p.albedo / math.pi * fon_scale(p.roughness) * shape
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """cos(theta_i)/pi."""
-    return wi[2] / math.pi

@@ -14,23 +14,13 @@ Violates: energy conservation for albedo > 0.97352: 1.028703 at grazing, sigma =
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
+from montecarlo_brdf.models._cosine import pdf, sample
 from montecarlo_brdf.models._rough_diffuse import tangential_ratio
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.models.oren_nayar import Params, domain, kinks, limits, verified
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    albedo: float = 0.8
-    sigma: float = 0.35
-
-
-domain = {"albedo": (0.0, 1.0), "sigma": (0.0, math.pi / 2.0)}
-verified = [Params(), Params(sigma=0.0), Params(albedo=0.5, sigma=1.2)]
-limits = [({"sigma": 0.0}, "lambert")]
 disclaims = {"energy": "albedo 1 reflects up to 1.028703 at grazing (sigma = 0.2575)"}
-kinks = ("mu_i=mu_o", "cos_phi=0")
 
 
 def f(wo: Vec, wi: Vec, p: Params) -> float:
@@ -39,13 +29,3 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
     a = 1.0 - 0.5 * s2 / (s2 + 0.33) + 0.17 * p.albedo * s2 / (s2 + 0.13)
     b = 0.45 * s2 / (s2 + 0.09)
     return p.albedo / math.pi * (a + b * tangential_ratio(wo, wi))
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """cos(theta_i)/pi."""
-    return wi[2] / math.pi

@@ -16,6 +16,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from montecarlo_brdf.models._microfacet import (
+    Facets,
     ggx_reflection,
     ggx_visible_pdf,
     half_sums,
@@ -36,17 +37,17 @@ lossless = [Params(alpha=1e-4)]  # a mirror
 lobe = ("half vector", lambda p: p.alpha)
 
 
-def f(wo: Vec, wi: Vec, p: Params) -> float:
+def f(wo: Vec, wi: Vec, p: Facets) -> float:
     """F D G/(4 mu_i mu_o)."""
     h = half_sums(wo, wi)
     return schlick(h, p.f0) * ggx_reflection(h, wo, wi, p.alpha)
 
 
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
+def sample(wo: Vec, u: Vec, p: Facets) -> Vec:
     """Reflection by a visible normal."""
     return sample_visible(wo, u, p.alpha, p.alpha)
 
 
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
+def pdf(wo: Vec, wi: Vec, p: Facets) -> float:
     """G1(wo) D/(4 mu_o)."""
     return ggx_visible_pdf(wo, wi, p.alpha)

@@ -12,29 +12,12 @@ Heitz 2014, eq. 99. 1 - E is tabulated per alpha with relative error below 1e-10
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
+from montecarlo_brdf.models import ggx
 from montecarlo_brdf.models._energy import Table, average_lost, lost, table
-from montecarlo_brdf.models._microfacet import (
-    ggx_reflection,
-    ggx_visible_pdf,
-    half_sums,
-    sample_visible,
-    schlick,
-)
+from montecarlo_brdf.models.ggx_turquin import Params, domain, lobe, lossless, verified
 from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
-
-
-class Params(NamedTuple):
-    alpha: float = 0.3
-    f0: float = 1.0
-
-
-domain = {"alpha": (1e-4, 1.0), "f0": (0.0, 1.0)}
-verified = [Params(), Params(alpha=1.0), Params(alpha=0.05), Params(alpha=0.3, f0=0.04)]
-lossless = [Params(alpha=a) for a in (0.05, 0.3, 1.0)]
-lobe = ("half vector", lambda p: p.alpha)
 
 
 def prepare(p: Params) -> Table:
@@ -48,18 +31,14 @@ def prepare(p: Params) -> Table:
 
 def f(wo: Vec, wi: Vec, p: Table) -> float:
     """One reflection, and all the others."""
-    h = half_sums(wo, wi)
-    single = schlick(h, p.f0) * ggx_reflection(h, wo, wi, p.alpha)
-    return single + p.factor * lost(wi[2], p) * lost(wo[2], p)
+    return ggx.f(wo, wi, p) + p.factor * lost(wi[2], p) * lost(wo[2], p)
 
 
 def sample(wo: Vec, u: Vec, p: Table) -> Vec:
     """One of the two, chosen by u[2]."""
-    if u[2] < 0.5:
-        return sample_visible(wo, u, p.alpha, p.alpha)
-    return random_hemisphere_cosine(u[0], u[1])
+    return ggx.sample(wo, u, p) if u[2] < 0.5 else random_hemisphere_cosine(u[0], u[1])
 
 
 def pdf(wo: Vec, wi: Vec, p: Table) -> float:
     """The density of the mixture."""
-    return 0.5 * ggx_visible_pdf(wo, wi, p.alpha) + 0.5 * wi[2] / math.pi
+    return 0.5 * ggx.pdf(wo, wi, p) + 0.5 * wi[2] / math.pi

@@ -13,28 +13,13 @@ is reflected up to 2.20 times (alpha = 1; 1.39 for 0.5, 1.06 for 0.1).
 """
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from montecarlo_brdf.models._energy import Table, lost, table
-from montecarlo_brdf.models._microfacet import (
-    ggx_reflection,
-    ggx_visible_pdf,
-    half_sums,
-    sample_visible,
-    schlick,
-)
+from montecarlo_brdf.models.ggx import Params, domain, lobe, pdf, sample
+from montecarlo_brdf.models.ggx import f as single
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    alpha: float = 0.3
-    f0: float = 1.0
-
-
-domain = {"alpha": (1e-4, 1.0), "f0": (0.0, 1.0)}
 verified = [Params(), Params(alpha=1.0), Params(alpha=0.05), Params(alpha=0.3, f0=0.04)]
 lossless = [Params(alpha=a) for a in (0.05, 0.3, 1.0)]
-lobe = ("half vector", lambda p: p.alpha)
 disclaims = {
     "reciprocity": "the compensation depends on mu_o only",
     "energy": "grazing light is reflected up to 2.20 times (alpha = 1), though the furnace gives 1",
@@ -48,17 +33,6 @@ def prepare(p: Params) -> Table:
 
 def f(wo: Vec, wi: Vec, p: Table) -> float:
     """One reflection, scaled."""
-    h = half_sums(wo, wi)
-    single = schlick(h, p.f0) * ggx_reflection(h, wo, wi, p.alpha)
+    once = single(wo, wi, p)
     missing = lost(wo[2], p)
-    return single * (1.0 + p.f0 * missing / (1.0 - missing))
-
-
-def sample(wo: Vec, u: Vec, p: Table) -> Vec:
-    """Reflection by a visible normal."""
-    return sample_visible(wo, u, p.alpha, p.alpha)
-
-
-def pdf(wo: Vec, wi: Vec, p: Table) -> float:
-    """G1(wo) D/(4 mu_o)."""
-    return ggx_visible_pdf(wo, wi, p.alpha)
+    return once * (1.0 + p.f0 * missing / (1.0 - missing))

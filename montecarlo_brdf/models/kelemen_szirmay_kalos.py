@@ -10,34 +10,15 @@ Conserves energy, but loses light. With f0 = 1 it is Ward's model of Geisler-Mor
 """
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from montecarlo_brdf.models._microfacet import beckmann_density, half_sums, schlick
-from montecarlo_brdf.models._ward import gaussian_pdf, sample_gaussian
+from montecarlo_brdf.models.ggx import Params, domain
+from montecarlo_brdf.models.ward import lobe, pdf, sample
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    alpha: float = 0.3
-    f0: float = 1.0
-
-
-domain = {"alpha": (1e-4, 1.0), "f0": (0.0, 1.0)}
 verified = [Params(), Params(alpha=0.05, f0=0.04), Params(alpha=1.0)]
-lobe = ("half vector", lambda p: p.alpha)
 
 
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """F D/|wi + wo|^2."""
     h = half_sums(wo, wi)
     return schlick(h, p.f0) * beckmann_density(h, p.alpha) / h[2]
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Reflection by a half vector of Gaussian slope."""
-    return sample_gaussian(wo, u, p.alpha)
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """exp(-tan^2/alpha^2)/(pi alpha^2 (n.h)^3 4 (h.v))."""
-    return gaussian_pdf(wo, wi, p.alpha)

@@ -14,12 +14,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from montecarlo_brdf.models._mirror_lobe import (
-    mirror_power,
-    mirror_power_pdf,
-    sample_mirror_power,
-    width,
-)
+from montecarlo_brdf.models import phong
+from montecarlo_brdf.models.phong import lobe
 from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
 
@@ -30,10 +26,9 @@ class Params(NamedTuple):
     n: float = 32.0
 
 
-domain = {"kd": (0.0, 1.0), "ks": (0.0, 1.0), "n": (0.0, 1e7)}
+domain = {"kd": (0.0, 1.0), **phong.domain}
 # kd and ks stay as they are: a search over both would leave kd + ks <= 1
 verified = [Params(), Params(n=1.5), Params(n=1e4)]
-lobe = ("mirror", lambda p: width(p.n))
 
 
 def share(p: Params) -> float:
@@ -43,18 +38,18 @@ def share(p: Params) -> float:
 
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """kd/pi + ks (n+2)/(2 pi) (r.v)^n."""
-    shine = p.ks * (p.n + 2.0) / (2.0 * math.pi) * mirror_power(wo, wi, p.n)
+    shine = phong.f(wo, wi, p)
     return p.kd / math.pi + shine
 
 
 def sample(wo: Vec, u: Vec, p: Params) -> Vec:
     """One of the two, chosen by u[2]."""
     if u[2] < share(p):
-        return sample_mirror_power(wo, u, p.n)
+        return phong.sample(wo, u, p)
     return random_hemisphere_cosine(u[0], u[1])
 
 
 def pdf(wo: Vec, wi: Vec, p: Params) -> float:
     """The density of the mixture."""
     w = share(p)
-    return w * mirror_power_pdf(wo, wi, p.n) + (1.0 - w) * wi[2] / math.pi
+    return w * phong.pdf(wo, wi, p) + (1.0 - w) * wi[2] / math.pi

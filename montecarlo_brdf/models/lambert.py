@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.models._cosine import pdf, sample
 from montecarlo_brdf.vectors import Vec
 
 
@@ -28,13 +28,3 @@ scales_with = "albedo"
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """The same in every direction."""
     return p.albedo / math.pi
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """cos(theta_i)/pi."""
-    return wi[2] / math.pi

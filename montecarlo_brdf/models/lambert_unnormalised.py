@@ -6,14 +6,14 @@ The albedo is pi c: a "diffuse colour" c = 1 reflects 3.14 times the light it re
 
 Sampling: cosine-weighted.
 c: value of the BRDF, 0 to 1; conserves energy up to c = 1/pi = 0.3183.
+Source: common use in shaders; Lambert 1760, Photometria, with its factor 1/pi left out.
 Violates: energy conservation for c > 1/pi.
 """
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.models._cosine import pdf, sample
 from montecarlo_brdf.vectors import Vec
 
 
@@ -29,13 +29,3 @@ scales_with = "c"
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """The same in every direction."""
     return p.c
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """cos(theta_i)/pi."""
-    return wi[2] / math.pi

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.models._cosine import pdf, sample
 from montecarlo_brdf.vectors import Vec
 
 
@@ -39,13 +39,3 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
     b = 0.45 * s2 / (s2 + 0.09)
     tangential = wi[0] * wo[0] + wi[1] * wo[1]
     return p.albedo / math.pi * (a + b * max(0.0, tangential) / max(wi[2], wo[2]))
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """cos(theta_i)/pi."""
-    return wi[2] / math.pi

@@ -16,28 +16,18 @@ Violates: energy conservation (up to 1.051019 at grazing, sigma = 0.3044; safe f
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
+from montecarlo_brdf.models._cosine import pdf, sample
+from montecarlo_brdf.models.oren_nayar import Params, domain, kinks, limits
 from montecarlo_brdf.special import polar_angle
 from montecarlo_brdf.vectors import Vec
 
 TINY = 1e-300  # keeps 0/0 at the normal from happening; the azimuth there does not matter
-
-
-class Params(NamedTuple):
-    albedo: float = 0.8
-    sigma: float = 0.35
-
-
-domain = {"albedo": (0.0, 1.0), "sigma": (0.0, math.pi / 2.0)}
 verified = [Params(), Params(sigma=0.0), Params(albedo=0.05, sigma=0.5 * math.pi)]
-limits = [({"sigma": 0.0}, "lambert")]
 disclaims = {
     "energy": "albedo 1 reflects up to 1.051019 at grazing (sigma = 0.3044)",
     "positivity": "pi f/albedo falls to -0.25 where both directions graze (sigma = pi/2, albedo 0)",
 }
-kinks = ("mu_i=mu_o", "cos_phi=0")
 
 
 def f(wo: Vec, wi: Vec, p: Params) -> float:
@@ -97,13 +87,3 @@ def interreflected(wo: Vec, wi: Vec) -> float:
     """1 - cos(dphi) (2b/pi)^2."""
     _, low = turned_low(wo, wi)
     return 1.0 - cos_azimuth(wo, wi) * low * low
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine-weighted."""
-    return random_hemisphere_cosine(u[0], u[1])
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """cos(theta_i)/pi."""
-    return wi[2] / math.pi

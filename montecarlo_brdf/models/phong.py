@@ -14,6 +14,7 @@ import math
 from typing import NamedTuple
 
 from montecarlo_brdf.models._mirror_lobe import (
+    Shine,
     mirror_power,
     mirror_power_pdf,
     sample_mirror_power,
@@ -33,16 +34,16 @@ scales_with = "ks"
 lobe = ("mirror", lambda p: width(p.n))
 
 
-def f(wo: Vec, wi: Vec, p: Params) -> float:
+def f(wo: Vec, wi: Vec, p: Shine) -> float:
     """ks (n+2)/(2 pi) (r.v)^n."""
     return p.ks * (p.n + 2.0) / (2.0 * math.pi) * mirror_power(wo, wi, p.n)
 
 
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
+def sample(wo: Vec, u: Vec, p: Shine) -> Vec:
     """Cosine power around the mirror direction."""
     return sample_mirror_power(wo, u, p.n)
 
 
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
+def pdf(wo: Vec, wi: Vec, p: Shine) -> float:
     """(n+1)/(2 pi) (r.v)^n."""
     return mirror_power_pdf(wo, wi, p.n)

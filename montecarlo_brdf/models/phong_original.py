@@ -13,30 +13,16 @@ Cosine-weighted estimates have infinite variance, because f grows as 1/mu_i.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from montecarlo_brdf.models._mirror_lobe import (
-    mirror_power,
-    mirror_power_pdf,
-    sample_mirror_power,
-    width,
-)
+from montecarlo_brdf.models._mirror_lobe import mirror_power
+from montecarlo_brdf.models.phong import Params, domain, lobe, pdf, sample, scales_with
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    ks: float = 1.0
-    n: float = 32.0
-
-
-domain = {"ks": (0.0, 1.0), "n": (0.0, 1e7)}
 verified = [Params(), Params(n=1.0), Params(n=1e4)]
 disclaims = {
     "reciprocity": "the division by mu_i is not symmetric",
     "energy": "grazing light is reflected without bound: R(89 degrees) = 12.5 for n = 1",
 }
-scales_with = "ks"
-lobe = ("mirror", lambda p: width(p.n))
 
 
 def n_plus_1(p: Params) -> float:
@@ -56,13 +42,3 @@ norm = n_plus_1
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """ks N (r.v)^n/mu_i."""
     return p.ks * norm(p) * mirror_power(wo, wi, p.n) / wi[2]
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine power around the mirror direction."""
-    return sample_mirror_power(wo, u, p.n)
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """(n+1)/(2 pi) (r.v)^n."""
-    return mirror_power_pdf(wo, wi, p.n)

@@ -19,8 +19,8 @@ from montecarlo_brdf.models._mirror_lobe import (
     away_from_mirror,
     mirror_power_pdf,
     sample_mirror_power,
-    width,
 )
+from montecarlo_brdf.models.phong import domain, lobe, scales_with
 from montecarlo_brdf.special import cosine_power
 from montecarlo_brdf.vectors import Vec
 
@@ -30,10 +30,7 @@ class Params(NamedTuple):
     n: float = 3.0
 
 
-domain = {"ks": (0.0, 1.0), "n": (0.0, 1e7)}
 verified = [Params(), Params(n=1.0), Params(n=10.0)]
-scales_with = "ks"
-lobe = ("mirror", lambda p: width(p.n))
 
 
 def odd(below: bool) -> float:

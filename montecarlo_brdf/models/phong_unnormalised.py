@@ -10,38 +10,13 @@ Violates: energy conservation for n < 2 pi - 2 = 4.2832 (ks = 1): the albedo at 
 """
 from __future__ import annotations
 
-from typing import NamedTuple
-
-from montecarlo_brdf.models._mirror_lobe import (
-    mirror_power,
-    mirror_power_pdf,
-    sample_mirror_power,
-    width,
-)
+from montecarlo_brdf.models._mirror_lobe import mirror_power
+from montecarlo_brdf.models.phong import Params, domain, lobe, pdf, sample, scales_with
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    ks: float = 1.0
-    n: float = 32.0
-
-
-domain = {"ks": (0.0, 1.0), "n": (0.0, 1e7)}
 verified = [Params(), Params(n=10.0), Params(n=1e4)]
-scales_with = "ks"
-lobe = ("mirror", lambda p: width(p.n))
 
 
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """ks (r.v)^n."""
     return p.ks * mirror_power(wo, wi, p.n)
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Cosine power around the mirror direction."""
-    return sample_mirror_power(wo, u, p.n)
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """(n+1)/(2 pi) (r.v)^n."""
-    return mirror_power_pdf(wo, wi, p.n)

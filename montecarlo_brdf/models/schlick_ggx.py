@@ -11,26 +11,12 @@ Conserves energy, but loses light: alpha = 0.05 with k = direct reflects 0.085 a
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from montecarlo_brdf.models._microfacet import (
-    ggx_density,
-    ggx_visible_pdf,
-    half_sums,
-    sample_visible,
-    schlick,
-)
+from montecarlo_brdf.models._microfacet import ggx_density, half_sums, schlick
+from montecarlo_brdf.models.ggx import Params, domain, lobe, pdf, sample
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    alpha: float = 0.3
-    f0: float = 1.0
-
-
-domain = {"alpha": (1e-4, 1.0), "f0": (0.0, 1.0)}
 verified = [Params(), Params(alpha=0.05), Params(alpha=1.0, f0=0.04)]
-lobe = ("half vector", lambda p: p.alpha)
 
 
 def direct(p: Params) -> float:
@@ -53,13 +39,3 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
     c = k(p)
     masking = (wi[2] * (1.0 - c) + c) * (wo[2] * (1.0 - c) + c)
     return 0.25 * schlick(h, p.f0) * ggx_density(h, p.alpha) / masking
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Reflection by a visible normal."""
-    return sample_visible(wo, u, p.alpha, p.alpha)
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """G1(wo) D/(4 mu_o)."""
-    return ggx_visible_pdf(wo, wi, p.alpha)

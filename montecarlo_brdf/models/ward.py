@@ -16,8 +16,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from montecarlo_brdf.models._half_lobe import gaussian, gaussian_pdf, sample_gaussian
 from montecarlo_brdf.models._microfacet import half_sums
-from montecarlo_brdf.models._ward import gaussian, gaussian_pdf, sample_gaussian
 from montecarlo_brdf.vectors import Vec
 
 

@@ -8,10 +8,21 @@ One file per model: `references/ggx.py` is the truth about `models/ggx.py`. A fi
     RECIPROCAL = True                                                  where R is A
 
 and nothing here is listed by hand: a new file in this folder is a new reference. The names with an
-underscore are the machinery: `_truth` (results), `_gamma` and `_fresnel` (special functions),
-`_rules`, `_kinks`, `_quadrature` and `_adaptive` (deterministic integration;
-`_quadrature.quadrature` takes any f). No file imports anything else of the package, and numpy and
-scipy are imported only when a function needs them.
+underscore are the machinery:
+
+    _truth                           results, and how rounding is bounded
+    _gamma, _phong, _oren_nayar      closed forms of special functions and of two families
+    _fresnel, _microfacet            Fresnel reflectance; distributions and maskings in slopes
+    _rules                           quadrature over one variable, and means over all views
+    _quadrature, _kinks              albedos of isotropic formulas in half-vector slopes, and where
+                                     panels must end
+    _ggx                             albedo of GGX as an integral over one variable
+    _irradiance                      closed forms under skies
+    _adaptive, _sky                  any f given as a function: its albedo, and its radiance under
+                                     any sky (for the truth about scenes and users' files)
+
+No file imports anything else of the package, and numpy and scipy are imported only when a function
+needs them.
 """
 
 import importlib

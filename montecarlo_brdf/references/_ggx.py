@@ -18,8 +18,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from montecarlo_brdf.references._bihemispherical import hemispherical_mean
-from montecarlo_brdf.references._rules import Array, Sum, converge, tanh_sinh, total
+from montecarlo_brdf.references._rules import (
+    Array,
+    Sum,
+    converge,
+    hemispherical_mean,
+    tanh_sinh,
+    total,
+)
 from montecarlo_brdf.references._truth import sine
 
 

@@ -1,4 +1,4 @@
-"""Irradiance E of a surface under skies with a closed form; Lambert's radiance is c E/pi.
+"""Closed forms under skies: irradiance E (Lambert's radiance is c E/pi), and what lobes reflect.
 
 The axis u of a sky stands at the angle beta from the normal. Sources: Ramamoorthi & Hanrahan 2001
 (spherical harmonics, eq. 8 and 12); Arvo 1995 (powers of the cosine); the cap is the projected
@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 
 from montecarlo_brdf.references._phong import double_axis
+from montecarlo_brdf.references._truth import Truth, closed_form
 
 
 def constant() -> float:
@@ -65,3 +66,19 @@ def image(rows: Sequence[float], columns: int) -> float:
         if top < bottom:
             total.append(row * (math.sin(bottom) ** 2 - math.sin(top) ** 2))
     return math.fsum(total) * math.pi / columns
+
+
+def cosine_sky(name: str, mu: float, m: float, **parameters: float) -> Truth | None:
+    """L_o under max(0, cos theta_i)^m around the normal; None where there is no closed form.
+
+    Minnaert: the formula of A with one more power of the cosine per m. Phong from the normal only.
+    """
+    if name == "minnaert":
+        k = parameters["k"]
+        value = 2.0 * parameters["albedo"] * mu ** (k - 1.0) / (k + 1.0 + m)
+        return closed_form(value, "Minnaert under a power of the cosine", condition=abs(k - 1.0))
+    if name == "phong" and mu == 1.0:
+        n = parameters["n"]
+        value = parameters["ks"] * (n + 2.0) / (n + 2.0 + m)
+        return closed_form(value, "Phong at the normal under a power of the cosine")
+    return None

@@ -12,8 +12,7 @@ and t_max is the image of mu_i = 0. Both variables are logarithmic in the way th
     t = width sinh v.
 
 So lobes of any width and views at any distance from the horizon cost only logarithmically more
-nodes. Nothing here is shared with the charts of the Monte Carlo estimators. `quadrature` takes any
-f whatever, at a hundred times the cost.
+nodes. Nothing here is shared with the charts of the Monte Carlo estimators.
 """
 
 import math
@@ -23,7 +22,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from montecarlo_brdf.references._adaptive import quadrature as quadrature
 from montecarlo_brdf.references._kinks import SMOOTH, TINY, Kinks
 from montecarlo_brdf.references._rules import (
     Array,
@@ -37,6 +35,7 @@ from montecarlo_brdf.references._rules import (
 )
 from montecarlo_brdf.references._truth import sine
 
+SOURCE = "quadrature in half-vector slopes fitted to the horizon"
 # A depends on tan(theta_o) through its square: below this the view is the normal, to 1e-18
 NORMAL_VIEW = 1e-9
 # nodes evaluated together: larger arrays leave the cache and go back to the system every time

@@ -1,4 +1,5 @@
-"""One-dimensional node sets on (0, 1), and the comparison of node sets that bounds an error.
+"""One-dimensional node sets on (0, 1), the comparison of node sets that bounds an error, and the
+mean of a directional albedo over the hemisphere.
 
 numpy is imported here; closed forms never import this file.
 """
@@ -124,6 +125,33 @@ def converge(
             trust = max(1.0, ratio / (1.0 - ratio))
         coarse, before = fine, difference
     return fine.value, trust * max(agreed, difference) + floor * fine.magnitude
+
+
+def hemispherical_mean(
+    albedo: Callable[[float], tuple[float, float]], width: float, breaks: tuple[float, ...] = ()
+) -> tuple[float, float]:
+    """2 int A(mu) mu dmu and its error bound.
+
+    A changes on the scale `width` next to the horizon, hence mu = 3 width sinh v; the first panel's
+    nodes lean towards mu = 0, where A may have a logarithm. A has kinks in mu at the breaks;
+    a break at 1 says that it is not smooth at the normal.
+    """
+    inside = [b for b in breaks if 0.0 < b < 1.0]
+    scale = 3.0 * width
+    edges = np.arcsinh(np.array([0.0, *inside, 1.0]) / scale)
+
+    def rule(size: float) -> Sum:
+        nodes = (clustered if breaks else leaning)(node_count(size * (20.0 + edges[-1])))
+        v, weight = panels(nodes, edges)
+        mu = np.minimum(scale * np.sinh(v), 1.0)
+        parts = np.array([albedo(float(m)) for m in mu])
+        weighted = parts * (2.0 * scale * weight * mu * np.cosh(v))[:, None]
+        bounds.append(float(np.abs(weighted[:, 1]).sum()))
+        return total(weighted[:, 0])
+
+    bounds: list[float] = []
+    value, error = converge(rule, agreements=2)  # A may be smooth on no scale that is known
+    return value, error + bounds[-1]
 
 
 def independent(result: tuple[float, float], source: str) -> Truth:

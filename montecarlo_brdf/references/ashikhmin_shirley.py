@@ -13,10 +13,9 @@ import numpy as np
 
 from montecarlo_brdf.references import _fresnel
 from montecarlo_brdf.references import _microfacet as microfacet
-from montecarlo_brdf.references._bihemispherical import hemispherical_mean
 from montecarlo_brdf.references._kinks import Kinks
 from montecarlo_brdf.references._quadrature import Geometry, slope_albedo
-from montecarlo_brdf.references._rules import Array, independent
+from montecarlo_brdf.references._rules import Array, hemispherical_mean, independent
 from montecarlo_brdf.references._truth import EPSILON, Truth
 
 RECIPROCAL = True

@@ -11,15 +11,13 @@ from typing import Any
 
 from montecarlo_brdf.references import _fresnel, _kinks
 from montecarlo_brdf.references import _microfacet as microfacet
-from montecarlo_brdf.references._bihemispherical import hemispherical_mean
 from montecarlo_brdf.references._kinks import SMOOTH, Kinks
-from montecarlo_brdf.references._quadrature import Geometry, check_cosine, slope_albedo
-from montecarlo_brdf.references._rules import Array, independent
+from montecarlo_brdf.references._quadrature import SOURCE, Geometry, check_cosine, slope_albedo
+from montecarlo_brdf.references._rules import Array, hemispherical_mean, independent
 from montecarlo_brdf.references._truth import Truth, sine
 
 RECIPROCAL = True
 ROUGH = 0.3  # alpha below which masking of light near the normal is far below rounding
-SOURCE = "quadrature in half-vector slopes fitted to the horizon"
 
 
 def reflectance(x: Array, fresnel: str, f0: float, eta: float, k: float) -> Array | float:

@@ -6,10 +6,9 @@ reciprocal: R(theta_i) = integral f_ss (1 - f0 + f0/E(mu_o)) mu_o dwo exceeds 1.
 
 from montecarlo_brdf.references import _fresnel, ggx
 from montecarlo_brdf.references import _microfacet as microfacet
-from montecarlo_brdf.references._bihemispherical import hemispherical_mean
 from montecarlo_brdf.references._ggx import TABLE_ERROR, unit_albedo, unit_albedo_table
 from montecarlo_brdf.references._quadrature import Geometry, slope_albedo
-from montecarlo_brdf.references._rules import Array, independent
+from montecarlo_brdf.references._rules import Array, hemispherical_mean, independent
 from montecarlo_brdf.references._truth import EPSILON, Truth, closed_form
 
 RECIPROCAL = False

@@ -13,9 +13,16 @@ import math
 
 import numpy as np
 
-from montecarlo_brdf.references._bihemispherical import hemispherical_mean
 from montecarlo_brdf.references._oren_nayar import constants
-from montecarlo_brdf.references._rules import Array, Sum, converge, independent, tanh_sinh, total
+from montecarlo_brdf.references._rules import (
+    Array,
+    Sum,
+    converge,
+    hemispherical_mean,
+    independent,
+    tanh_sinh,
+    total,
+)
 from montecarlo_brdf.references._truth import EPSILON, Truth, sine
 
 RECIPROCAL = True

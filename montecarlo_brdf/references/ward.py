@@ -10,13 +10,11 @@ relative error of the cosine.
 import numpy as np
 
 from montecarlo_brdf.references import _microfacet as microfacet
-from montecarlo_brdf.references._bihemispherical import hemispherical_mean
-from montecarlo_brdf.references._quadrature import Geometry, slope_albedo
-from montecarlo_brdf.references._rules import Array, independent
+from montecarlo_brdf.references._quadrature import SOURCE, Geometry, slope_albedo
+from montecarlo_brdf.references._rules import Array, hemispherical_mean, independent
 from montecarlo_brdf.references._truth import Truth
 
 RECIPROCAL = True
-SOURCE = "quadrature in half-vector slopes fitted to the horizon"
 
 
 def _denominator(g: Geometry, variant: str) -> Array:

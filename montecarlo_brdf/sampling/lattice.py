@@ -1,7 +1,7 @@
 """Randomly shifted rank-1 lattices: point i of N is frac(i z/N + shift).
 
 Coordinates are 64-bit fixed-point fractions, so the lattice closes exactly. Integrands that are
-not periodic must be made so, `estimate.integrands.periodised`; then the error of smooth ones
+not periodic must be made so, `estimate.quantity.periodised`; then the error of smooth ones
 falls like N^-2 and faster (Sloan & Joe 1994, "Lattice methods for multiple integration").
 """
 from __future__ import annotations

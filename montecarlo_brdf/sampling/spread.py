@@ -1,12 +1,20 @@
 """Points in arrays, all at once, for searches: to look around in, and as nodes of means without
 error bars."""
+
 from __future__ import annotations
 
 import functools
-from typing import Any
+from typing import TYPE_CHECKING
+
+from montecarlo_brdf.bits import reverse32
+from montecarlo_brdf.sampling.sobol import pascal_reversed, third
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 
-def spread(n: int, dimensions: int, key: int) -> Any:
+def spread(n: int, dimensions: int, key: int) -> npt.NDArray[np.float64]:
     """(n, dimensions) numbers in [0, 1): multiples of powers of one irrational number, shifted.
 
     Source: Roberts 2018, "The unreasonable effectiveness of quasirandom sequences".
@@ -22,11 +30,8 @@ def spread(n: int, dimensions: int, key: int) -> Any:
 
 
 @functools.lru_cache(maxsize=16)
-def net(n: int, key: int) -> Any:
-    """The first n points (n, 3) of Sobol's sequence under a random digital shift: nodes of means.
-
-    Direction numbers of the polynomials 1, x + 1 and x^2 + x + 1. Source: Joe & Kuo 2008.
-    """
+def net(n: int, key: int) -> npt.NDArray[np.float64]:
+    """The first n points (n, 3) of Sobol's sequence under a random digital shift, as nodes."""
     import numpy as np
 
     index = np.arange(n, dtype=np.uint32)
@@ -35,14 +40,15 @@ def net(n: int, key: int) -> Any:
     for axis, column in enumerate(_directions()):
         for bit in range(max(1, (n - 1).bit_length())):
             points[:, axis] ^= ((index >> np.uint32(bit)) & np.uint32(1)) * np.uint32(column[bit])
-    return (points + 0.5) / 2.0**32
+    return (points + np.float64(0.5)) / 2.0**32
 
 
+@functools.cache
 def _directions() -> list[list[int]]:
-    first = [1 << (31 - k) for k in range(32)]
-    second, third = [1 << 31], [1 << 31, 3 << 30]
-    for k in range(1, 32):
-        second.append(second[k - 1] ^ (second[k - 1] >> 1))
-    for k in range(2, 32):
-        third.append(third[k - 2] ^ (third[k - 2] >> 2) ^ third[k - 1])
-    return [first, second, third]
+    """The words of the points 1, 2, 4, ... in each coordinate; all others are sums of these."""
+    powers = [1 << k for k in range(32)]
+    return [
+        [reverse32(word) for word in powers],
+        [reverse32(pascal_reversed(word)) for word in powers],
+        [third(word) for word in powers],
+    ]

@@ -13,10 +13,6 @@ import math
 from montecarlo_brdf.special import turn
 from montecarlo_brdf.vectors import Vec
 
-UNIFORM_SPHERE_PDF = 1.0 / (4.0 * math.pi)
-UNIFORM_DISK_PDF = 1.0 / math.pi
-UNIFORM_HEMISPHERE_PDF = 1.0 / (2.0 * math.pi)
-
 
 def random_sphere(u1: float, u2: float) -> Vec:
     """Uniform on the unit sphere, pdf 1/(4 pi): z = 1 - 2 u1."""
@@ -43,21 +39,6 @@ def random_hemisphere_cosine(u1: float, u2: float) -> Vec:
     """Cosine-weighted, pdf cos(theta)/pi, with z = sqrt(1 - u1): z never rounds to 0."""
     x, y = random_disk(u1, u2)
     return x, y, math.sqrt(1.0 - u1)
-
-
-def random_hemisphere_cosine_lifted(u1: float, u2: float) -> Vec:
-    """The same by Malley's method: a disk point lifted to z = sqrt(1 - x^2 - y^2).
-
-    Near the horizon 1 - x^2 - y^2 is a small difference of rounded squares, so z has absolute
-    error sqrt(eps) there; `random_hemisphere_cosine` is the better-conditioned twin.
-    """
-    x, y = random_disk(u1, u2)
-    return x, y, math.sqrt(max(0.0, 1.0 - x * x - y * y))
-
-
-def pdf_hemisphere(w: Vec) -> float:
-    """1/(2 pi) above the horizon, 0 below."""
-    return UNIFORM_HEMISPHERE_PDF if w[2] > 0.0 else 0.0
 
 
 def pdf_hemisphere_cosine(w: Vec) -> float:

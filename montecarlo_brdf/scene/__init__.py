@@ -1,6 +1,7 @@
 """Scenes: a surface under a sky and lights, its reflected radiance, and its picture.
 
-Reading order: skies (what shines), surface, lights, scene and read (the file), plan (what is
-evaluated and what is skipped), radiance (the estimates), truth (what they must be), standard (the
-standard lighting equation), render and picture (the sphere).
+Reading order: colour, surface, standard (the standard lighting equation), texels and skies (what
+shines), scene (the record); images, table, environment and read (the file); plan (what is evaluated
+and what is skipped), methods and integrands, radiance (the estimates), truth (what they must be),
+claims; pixels, angle_table and render (the sphere).
 """

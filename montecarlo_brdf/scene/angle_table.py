@@ -8,7 +8,7 @@ leaves out, which is more than that of the table used, plus that of the nodes th
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING
 
 from montecarlo_brdf.estimate import adaptive
 from montecarlo_brdf.estimate.plan import Plan
@@ -17,13 +17,21 @@ from montecarlo_brdf.scene.pixels import PLACE, means
 from montecarlo_brdf.scene.plan import Work
 from montecarlo_brdf.scene.radiance import constant_values
 
+if TYPE_CHECKING:
+    from numpy import float64
+    from numpy.typing import NDArray
+
+    Reals = NDArray[float64]
+
 INTERVALS = 128
 TARGET = 1e-6  # relative, of a node in a chart that fits the lobe
 FEWEST_SAMPLES, MOST_SAMPLES = 1 << 14, 1 << 20  # per node where no chart fits
 ENOUGH = 2e-5  # relative to a light of 1
 
 
-def tabulated(work: Work, mu: Any, seed: int, key: int, threads: int) -> tuple[Any, float, str]:
+def tabulated(
+    work: Work, mu: Reals, seed: int, key: int, threads: int
+) -> tuple[Reals, float, str]:
     """Radiance (n, sets) at the cosines `mu`, a bound on its error, and how it was found."""
     import numpy as np
 
@@ -36,7 +44,7 @@ def tabulated(work: Work, mu: Any, seed: int, key: int, threads: int) -> tuple[A
     return found, noise + _left_out(values), f"table of {INTERVALS + 1} angles"
 
 
-def _charted(work: Work, cosines: Any, seed: int) -> tuple[Any, float] | None:
+def _charted(work: Work, cosines: Reals, seed: int) -> tuple[Reals, float] | None:
     """Every node to TARGET in the chart that fits the lobe; None where none does."""
     import numpy as np
 
@@ -52,7 +60,7 @@ def _charted(work: Work, cosines: Any, seed: int) -> tuple[Any, float] | None:
     return (np.array(rows), TARGET * float(np.max(np.abs(rows)))) if rows else None
 
 
-def _sampled(work: Work, cosines: Any, key: int, threads: int) -> tuple[Any, float]:
+def _sampled(work: Work, cosines: Reals, key: int, threads: int) -> tuple[Reals, float]:
     """Samples are added until that no longer makes the table more exact."""
     import numpy as np
 
@@ -68,7 +76,7 @@ def _sampled(work: Work, cosines: Any, key: int, threads: int) -> tuple[Any, flo
     return values, 0.0
 
 
-def _left_out(values: Any) -> float:
+def _left_out(values: Reals) -> float:
     """How far a table of every other node is from the nodes it leaves out."""
     import numpy as np
 
@@ -76,8 +84,8 @@ def _left_out(values: Any) -> float:
     return float(np.max(np.abs(cubic(values[::2], odd) - values[1::2])))
 
 
-def cubic(values: Any, t: Any) -> Any:
-    """Values on an even grid of [0, 1] interpolated at t through the four nearest nodes."""
+def cubic(values: Reals, t: Reals) -> Reals:
+    """Values (nodes, sets) on an even grid of [0, 1], through the four nearest nodes of t (n)."""
     import numpy as np
 
     x = np.clip(t, 0.0, 1.0) * (len(values) - 1)

@@ -9,15 +9,16 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine, random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
 
-F: Any = None
-SAMPLE: Any = None
-PDF: Any = None
-SKY: Any = None
-SKY_SAMPLE: Any = None
-SKY_PDF: Any = None
+F: Any = hole()
+SAMPLE: Any = hole()
+PDF: Any = hole()
+SKY: Any = hole()
+SKY_SAMPLE: Any = hole()
+SKY_PDF: Any = hole()
 
 PI = math.pi
 
@@ -83,3 +84,7 @@ def mixed(u: Any, wo: Any, p: Any) -> float:
         return 0.0
     density = 0.5 * (PDF(view, wi, p.model) + SKY_PDF(wi, p.sky))
     return F(view, wi, p.model) * SKY(wi, p.sky) * wi[2] / density
+
+
+#: by what chooses the direction
+BY_METHOD = {"cosine": cosine, "sky": sky, "own": own, "weighted": weighted, "mixed": mixed}

@@ -6,30 +6,26 @@ The integrands are those of `scene.integrands`; only the sky is turned into each
 
 from __future__ import annotations
 
-import functools
-import types
-from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.compile import kernel
-from montecarlo_brdf.compile.bind import Specialiser
-from montecarlo_brdf.compile.kernel import compiled
-from montecarlo_brdf.compile.layout import Layout, pack, unpacker
-from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.compile.bind import bound, hole
+from montecarlo_brdf.compile.kernel import Kernel, kernel
+from montecarlo_brdf.compile.layout import Unpack, pack
 from montecarlo_brdf.estimate.subject import functions_of
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key
 from montecarlo_brdf.scene import integrands, skies
-from montecarlo_brdf.scene.radiance import Lit, weighted
+from montecarlo_brdf.scene.plan import Work
+from montecarlo_brdf.scene.radiance import Lit, method_name
 from montecarlo_brdf.vectors import Vec, dot
 
-POINTS: Any = None
-INTEGRAND: Any = None
-PARAMETERS: Any = None
-INNER: Any = None
-CHANNELS = 1
+POINTS: Any = hole()
+INTEGRAND: Any = hole()
+PARAMETERS: Any = hole()
+INNER: Any = hole()
+CHANNELS: Any = hole()
 PLACE = 12  # numbers per point: view, tangent, bitangent, normal
 CHUNK = 2048  # points per call: progress, threads, Ctrl-C
 
@@ -89,74 +85,42 @@ def pixels(ints: Any, reals: Any, out: Any) -> None:
             out[2 * (j * CHANNELS + k) + 1] = squares / ints[2]
 
 
-class Recipe(NamedTuple):
-    """All that a kernel of pixels is made of."""
-
-    integrand: Callable[..., Any]
-    functions: Mapping[str, Any]
-    layout: Layout
-
-    def key(self) -> str:
-        """Hash of everything the machine code depends on."""
-        content = kernel.fingerprint(self.layout)
-        content.add(point_sets.sobol)
-        content.add(self.integrand, self.functions)
-        content.add(pixels)
-        return content.hexdigest()
-
-    def parts(self) -> Hashable:
-        """Integrand, functions and layout."""
-        return self.integrand, frozenset(self.functions.items()), self.layout
-
-    def assemble(self, special: Specialiser) -> Callable[..., Any]:
-        """The template with everything bound."""
-        bound = {
-            "POINTS": point_sets.sobol,
-            "INTEGRAND": special.bind(self.integrand, self.functions),
-            "PARAMETERS": unpacker(self.layout),
-            "CHANNELS": len(self.layout.places),
-        }
-        return special.clone(pixels, bound)
-
-
-def recipe_of(work: Any) -> tuple[Recipe, list[float]]:
+def kernel_of(work: Work) -> tuple[Kernel, list[float]]:
     """The kernel of a planned work, and its parameters' numbers."""
     model, sky = work.model, skies.FUNCTIONS[type(work.sets[0][1])]
-    functions = {**functions_of(model), "SKY": _bound(placed_value, sky.radiance)}
+    names = {**functions_of(model), "SKY": bound(placed_value, INNER=sky.radiance)}
     if sky.sample:
-        functions["SKY_SAMPLE"] = _bound(placed_sample, sky.sample)
-        functions["SKY_PDF"] = _bound(placed_value, sky.pdf)
+        names["SKY_SAMPLE"] = bound(placed_sample, INNER=sky.sample)
+        names["SKY_PDF"] = bound(placed_value, INNER=sky.pdf)
     else:
-        functions |= {"SKY_SAMPLE": integrands.cosine_sample, "SKY_PDF": integrands.cosine_pdf}
-    name = "weighted" if work.method == "own" and weighted(model) else work.method
-    name = "cosine" if name == "one value" else name
+        names |= {"SKY_SAMPLE": integrands.cosine_sample, "SKY_PDF": integrands.cosine_pdf}
+    name = "cosine" if work.method == "one value" else method_name(work)
     layout, numbers = pack([Lit(model.prepared(p), s) for p, s in work.sets], 0)
-    return Recipe(getattr(integrands, name), functions, layout), numbers
-
-
-@functools.cache
-def _bound(template: Any, inner: Any) -> Any:
-    scope = {**globals(), "INNER": inner}
-    return types.FunctionType(template.__code__, scope, template.__name__)
+    made = kernel(
+        model.name,
+        pixels,
+        POINTS=point_sets.sobol,
+        INTEGRAND=bound(integrands.BY_METHOD[name], **names),
+        PARAMETERS=Unpack(layout),
+        CHANNELS=len(layout.places),
+    )
+    return made, numbers
 
 
 def means(
-    work: Any, places: Any, samples: int, key: int, threads: int, progress: Any = None
+    work: Work, places: Any, samples: int, key: int, threads: int, progress: Any = None
 ) -> tuple[Any, Any]:
     """Mean and its standard error per point and parameter set, for places (n, PLACE)."""
     import numpy as np
 
-    recipe, numbers = recipe_of(work)
-    kernel = compiled(work.model.name, recipe)
+    call, numbers = kernel_of(work)
     starts = range(0, len(places), CHUNK)
 
     def one(start: int) -> Any:
         part = places[start : start + CHUNK]
         reals = np.concatenate([numbers, part.ravel()]).astype(np.float64)
-        ints = np.array([len(part), len(numbers), samples, key >> 1, start], dtype=np.int64)
         out = np.empty((len(part), len(work.sets), 2))
-        if kernel(ints.ctypes.data, reals.ctypes.data, out.ctypes.data) != 0:
-            raise ModelError(f"model {work.model.name} raised an exception while it was sampled")
+        call.on([len(part), len(numbers), samples, key >> 1, start], reals, out)
         if progress:
             progress(min(1.0, (start + CHUNK) / len(places)))
         return out

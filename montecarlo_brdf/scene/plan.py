@@ -10,14 +10,14 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import skies
-from montecarlo_brdf.scene.lights import ORIGIN, is_black
+from montecarlo_brdf.scene.colour import Colour
 from montecarlo_brdf.scene.methods import method_of, unscaled
-from montecarlo_brdf.scene.scene import Scene
-from montecarlo_brdf.scene.skies import Sky
-from montecarlo_brdf.scene.surface import Lobe
-from montecarlo_brdf.vectors import Vec, from_degrees
+from montecarlo_brdf.scene.scene import ORIGIN, Scene, as_lobes
+from montecarlo_brdf.scene.skies import Shape, Sky
+from montecarlo_brdf.scene.surface import Lobe, Parameters, Surface
+from montecarlo_brdf.vectors import Vec
 
-View = tuple[float, float]  # theta, phi in degrees
+Angles = tuple[float, float]  # theta, phi in degrees
 
 
 class Item(NamedTuple):
@@ -41,7 +41,7 @@ class Work(NamedTuple):
 
     name: str
     model: Model
-    sets: tuple[tuple[Any, Any], ...]  # (parameters, sky shape)
+    sets: tuple[tuple[Parameters, Shape], ...]
     shares: tuple[Share | None, ...]  # per channel
     method: str
 
@@ -51,28 +51,35 @@ class ScenePlan(NamedTuple):
 
     scene: Scene
     works: list[Work]
-    lights: list[tuple[Vec, tuple[float, ...]]]  # direction, irradiance across the beam
+    lights: list[tuple[Vec, Colour]]  # direction, irradiance across the beam
     lobes: list[Lobe]  # that lights are reflected by
-    views: dict[View, View]  # every view, and the one that is evaluated for it
+    views: dict[Angles, Angles]  # every view, and the one that is evaluated for it
     items: list[Item]
     skip: bool
+    known: dict[tuple[object, ...], Any]  # what was measured, by view and sampling
 
 
 def make(scene: Scene, skip: bool = True, sphere: bool = False) -> ScenePlan:
-    """The plan of a scene whose surface is made of lobes, flat or the whole of a `sphere`."""
+    """The plan of a scene; of the standard lighting equation, that of its lobes.
+
+    skip: leave out what the scene does not need. sphere: the surface is all of a sphere, which sees
+    more of the sky than a flat one.
+    """
     items: list[Item] = []
-    lobes = _lobes(scene, skip, items)
-    works = _works(scene, lobes, skip, sphere, items)
-    lights = _lights(scene, skip, items)
-    for name in ("ambient", "emission"):
-        if skip and not any(getattr(scene, name)):
+    whole = as_lobes(scene)
+    lobes = _lobes(whole, skip, items)
+    works = _works(whole, lobes, skip, sphere, items)
+    lights = _lights(whole, skip, items)
+    # the standard equation's ambient light is part of what its lobes emit
+    for name, colour in (("ambient", scene.ambient), ("emission", whole.emission)):
+        if skip and not any(colour):
             items.append(Item(name, False, "it is zero"))
-    return ScenePlan(scene, works, lights, lobes, _views(scene, skip, items), items, skip)
+    return ScenePlan(whole, works, lights, lobes, _views(whole, skip, items), items, skip, {})
 
 
 def _lobes(scene: Scene, skip: bool, items: list[Item]) -> list[Lobe]:
     kept = []
-    for lobe in scene.surface.lobes:  # type: ignore[union-attr]
+    for lobe in scene.lobes:
         if skip and not any(lobe.weights):
             items.append(Item(f"lobe {lobe.name}", False, "its weight is zero", scene.channels))
         else:
@@ -106,7 +113,7 @@ def _alone(lobe: Lobe, sky: Sky, c: int) -> Work:
 
 def _shared(lobe: Lobe, sky: Sky, items: list[Item]) -> Work | None:
     """A lobe with its distinct parameter sets; equal and proportional channels share one."""
-    sets: list[tuple[Any, Any]] = []
+    sets: list[tuple[Parameters, Shape]] = []
     shares: list[Share | None] = []
     for weight, p, shape, scale in zip(
         lobe.weights, lobe.sets, sky.shapes, sky.scales, strict=True
@@ -149,12 +156,12 @@ def _explain(work: Work, items: list[Item]) -> None:
     )
 
 
-def _lights(scene: Scene, skip: bool, items: list[Item]) -> list[tuple[Vec, tuple[float, ...]]]:
+def _lights(scene: Scene, skip: bool, items: list[Item]) -> list[tuple[Vec, Colour]]:
     """Directions and irradiances at the origin."""
     found = []
     black = below = 0
     for light in scene.lights:
-        if skip and is_black(light):
+        if skip and not any(light.colour):
             black += 1
             continue
         wi, factor = light.at(ORIGIN)
@@ -171,31 +178,19 @@ def _lights(scene: Scene, skip: bool, items: list[Item]) -> list[tuple[Vec, tupl
     return found
 
 
-def _views(scene: Scene, skip: bool, items: list[Item]) -> dict[View, View]:
+def _views(scene: Scene, skip: bool, items: list[Item]) -> dict[Angles, Angles]:
     """Views that must give the same radiance are evaluated once."""
     views = [(t, p) for t in scene.view.theta_o_deg for p in scene.view.phi_o_deg]
-    surface: Any = scene.surface
+    found = {v: v for v in views}
     if not skip:
-        return {v: v for v in views}
-    turned = surface.isotropic and not scene.lights
-    turned = turned and (scene.sky is None or all(map(skies.symmetric, scene.sky.shapes)))
+        return found
+    surface, why = Surface(scene.lobes), "equal by symmetry"
+    turned = scene.sky is None or all(map(skies.symmetric, scene.sky.shapes))
     if surface.constant:
-        found = dict.fromkeys(views, views[0])
-    elif turned:
+        found, why = dict.fromkeys(views, views[0]), "the surface looks the same from everywhere"
+    elif turned and surface.isotropic and not scene.lights:
         found = {(t, p): (t, views[0][1]) for t, p in views}
-    else:
-        found = {v: v for v in views}
     saved = len(views) - len(set(found.values()))
     if saved:
-        why = (
-            "the surface looks the same from everywhere"
-            if surface.constant
-            else "equal by symmetry"
-        )
         items.append(Item(f"{saved} views", False, why))
     return found
-
-
-def direction_of(view: View) -> Vec:
-    """The view's unit vector."""
-    return from_degrees(*view)

@@ -6,12 +6,16 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.estimate import probe
+from montecarlo_brdf.compile.bind import bound
+from montecarlo_brdf.estimate import probe, trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.quantity import Integrand
+from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.estimate.subject import Subject, functions_of
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.points import DIMENSIONS
 from montecarlo_brdf.scene import integrands, skies
 from montecarlo_brdf.scene.methods import unscaled
 from montecarlo_brdf.scene.plan import ScenePlan, Work
@@ -19,9 +23,6 @@ from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.surface import Lobe, ignores_directions
 from montecarlo_brdf.statistics import FLOOR, Estimate
 from montecarlo_brdf.vectors import Vec, mirrored
-
-FEWEST = 1000.0  # effective samples below which an error bar is not trusted
-LARGEST_SHARE = 0.02  # of the total, that one value may have
 
 
 class Lit(NamedTuple):
@@ -139,20 +140,21 @@ def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str |
         "SKY_SAMPLE": sky.sample or integrands.cosine_sample,
         "SKY_PDF": sky.pdf or integrands.cosine_pdf,
     }
-    name = "weighted" if work.method == "own" and weighted(model) else work.method
+    template = bound(integrands.BY_METHOD[method_name(work)], **functions)
+    mean = Integrand(template, (), None, DIMENSIONS, periodic=False)
     subject = Subject(
         (model.name, *model.picks.values(), *(f"{p!r} {skies.identity(s)}" for p, s in work.sets)),
-        functions,
         [Lit(model.prepared(p), shape) for p, shape in work.sets],
     )
-    rows = evaluate(subject, wo, [getattr(integrands, name)], sampling, ("radiance", work.method))
+    rows = evaluate(subject, wo, [mean], sampling, ("radiance", work.method))
     sets = zip(rows, work.sets, strict=True)
     return [(row[0], reason_unfit(work, row[0], p, shape, wo)) for row, (p, shape) in sets]
 
 
-def weighted(model: Model) -> bool:
-    """Whether the model's sampler must be used with the weight that it returns."""
-    return model.pdf is None and probe.returns_weight(model)
+def method_name(work: Work) -> str:
+    """Its integrand: that of the weight where the sampler has no pdf."""
+    alone = work.method == "own" and work.model.pdf is None and weighted(work.model)
+    return "weighted" if alone else work.method
 
 
 def reason_unfit(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> str | None:
@@ -161,8 +163,12 @@ def reason_unfit(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> str | 
         return None
     if e.mean == 0.0 and not e.largest:
         return f"no sample of {e.samples} met light" if work.method == "own" else None
-    if e.effective_samples() < min(FEWEST, 0.25 * e.samples):
-        return f"{e.effective_samples():.0f} effective samples under {work.method} sampling"
+    unfit = trust.few_carry(work.method, e, e.second_moment) or _hidden(work, e, p, shape, wo)
+    return unfit.reason if unfit else None
+
+
+def _hidden(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> trust.Unfit | None:
+    """A lobe of which directions know nothing."""
     if work.model.sample and work.method != "sky" or ignores_directions(work.model):
         return None
     sky = skies.FUNCTIONS[type(shape)]
@@ -170,6 +176,4 @@ def reason_unfit(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> str | 
     density = sky.pdf(at, shape) if work.method == "sky" and sky.pdf else at[2] / math.pi
     highest, _ = probe.highest(work.model, work.model.prepared(p), wo)
     expected = highest * sky.radiance(at, shape) * at[2] / density if density else 0.0
-    if expected > LARGEST_SHARE * e.samples * e.mean:
-        return f"a lobe that {work.method} sampling hardly hits"
-    return None
+    return trust.hardly_hit(work.method, e, expected)

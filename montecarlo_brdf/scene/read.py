@@ -1,26 +1,39 @@
-"""A scene from a TOML file, every value checked; docs/scenes.md lists all keys."""
+"""Scenes from TOML files, every value checked, and from a command line.
+
+docs/scenes.md lists all keys.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
+from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.scene.lights import Directional, Light, Point
-from montecarlo_brdf.scene.make import assigned
-from montecarlo_brdf.scene.read_surface import read_surface
-from montecarlo_brdf.scene.scene import Band, Scene, View
-from montecarlo_brdf.scene.sky_tables import read_sky
-from montecarlo_brdf.scene.spectrum import illuminant_table, pairs
-from montecarlo_brdf.scene.standard import Standard
-from montecarlo_brdf.scene.surface import Surface, lobes_of, spread
-from montecarlo_brdf.scene.toml import Table, parse
+from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.model import Model, ParameterSet, channels
+from montecarlo_brdf.scene.colour import Band, Colour, illuminant_table, pairs, spread
+from montecarlo_brdf.scene.environment import read_sky, short_sky
+from montecarlo_brdf.scene.scene import Directional, Light, Point, Scene, View
+from montecarlo_brdf.scene.skies import Sky
+from montecarlo_brdf.scene.standard import Form, Standard
+from montecarlo_brdf.scene.surface import Surface, lobes_of
+from montecarlo_brdf.scene.table import SceneTable
+from montecarlo_brdf.toml import parse
 
-Colour = float | tuple[float, ...]
+
+class Part(NamedTuple):
+    """A lobe as it is written: its colours may have fewer channels than the scene."""
+
+    weight: Colour
+    model: Model
+    parameters: ParameterSet
 
 
-def read_scene(path: str | Path, **parameters: Any) -> Scene:
+def read_scene(path: str | Path, **parameters: object) -> Scene:
     """The scene in a file.
 
     path: of a TOML file (docs/scenes.md). parameters: values that replace those of its surface
@@ -29,80 +42,218 @@ def read_scene(path: str | Path, **parameters: Any) -> Scene:
     """
     file = Path(path)
     data, text = parse(file)
-    top = Table(file, text, data)
-    band = _band(top)
-    top.wavelengths = band.wavelengths if band else None
-    raw = _raw(top, parameters)
+    top = SceneTable(file, text, data)
+    top.band = _band(top)
+    scene = _assembled(top, parameters)
+    return replace(scene, words=(str(path), *assigned(parameters)))
+
+
+def scene_of(
+    model: Model,
+    p: ParameterSet,
+    environment: str,
+    theta_o_deg: Sequence[float] = View().theta_o_deg,
+) -> Scene:
+    """`model` with parameters `p` (colours allowed) under a sky like "cosine:8" or "cap:10:60".
+
+    theta_o_deg: polar angles of the view in degrees.
+    """
+    sky, own = short_sky(environment), len(channels(p))
+    widths = {own, sky.channels} - {1}
+    if len(widths) > 1:
+        raise UserError(f"the model has {own} channels and the environment {sky.channels}")
+    count = max(widths, default=1)
+    dark = (0.0,) * count
+    shown = {model.labels.get(k, k): v for k, v in p._asdict().items()} | dict(model.of(p).picks)
+    scene = Scene(
+        name=f"{model.name} under {environment}",
+        channels=count,
+        surface=Surface(tuple(lobes_of(model, p, (1.0,) * count, count))),
+        sky=sky.spread(count),
+        ambient=dark,
+        emission=dark,
+        words=("--model", model.name, *assigned(shown), "--environment", environment),
+    )
+    return with_views(scene, theta_o_deg)
+
+
+def assigned(values: Mapping[str, object]) -> list[str]:
+    """-p name=value of every parameter."""
+    rows = ((k, v if isinstance(v, tuple) else (v,)) for k, v in values.items())
+    return [word for k, v in rows for word in ("-p", f"{k}={'/'.join(map(str, v))}")]
+
+
+def with_views(scene: Scene, theta_o_deg: Sequence[float]) -> Scene:
+    """The scene seen from other polar angles."""
+    angles = tuple(check_theta(t) for t in theta_o_deg)
+    return replace(scene, view=scene.view._replace(theta_o_deg=angles))
+
+
+def _assembled(top: SceneTable, parameters: Mapping[str, object]) -> Scene:
+    """The scene with every colour spread over the same number of channels."""
+    name = top.text_of("name", top.file.stem)
+    surface = _surface(top.table("surface"), parameters)
+    sky = read_sky(top.table("environment")) if "environment" in top.data else None
+    lights = [_light(t) for t in top.tables("lights")]
+    ambient, emission = _single(top, "ambient"), _single(top, "emission")
+    view = _view(top.table("view", {}))
     top.done()
-    words = (str(path), *assigned(parameters))
-    return replace(_assembled(top, raw, band), words=words)
+    colours = [ambient, emission, *(light.colour for light in lights), *_colours(surface)]
+    count = _channels(top, colours, sky)
+    if isinstance(surface, Standard) and sky:
+        raise top.error(
+            "the standard lighting equation has lights and no [environment]", "environment"
+        )
+    return Scene(
+        name=name,
+        channels=count,
+        surface=_spread_surface(surface, count),
+        sky=sky.spread(count) if sky else None,
+        lights=tuple(light._replace(colour=spread(light.colour, count)) for light in lights),
+        ambient=spread(ambient, count),
+        emission=spread(emission, count),
+        view=view,
+        band=top.band,
+    )
 
 
-def _raw(top: Table, parameters: dict[str, Any]) -> dict[str, Any]:
-    """Everything in the file, colours still as written."""
-    return {
-        "name": top.text_of("name", top.file.stem),
-        "surface": read_surface(top.table("surface"), parameters),
-        "sky": read_sky(top.table("environment")) if "environment" in top.data else None,
-        "lights": [_light(t) for t in top.tables("lights")],
-        "ambient": _single(top, "ambient"),
-        "emission": _single(top, "emission"),
-        "view": _view(top.table("view", {})),
-    }
+def _channels(top: SceneTable, colours: Sequence[Colour], sky: Sky | None) -> int:
+    """The one number of channels that all colours of the scene have."""
+    widths = set(map(len, colours))
+    widths |= {sky.channels} if sky else set()
+    widths |= {len(top.band.wavelengths)} if top.band else set()
+    widths -= {1}
+    if len(widths) > 1:
+        raise top.error(
+            f"all colours of a scene need the same number of channels, not {sorted(widths)}"
+        )
+    return max(widths, default=1)
 
 
-def _single(top: Table, key: str) -> Colour:
+def _colours(surface: Standard | list[Part]) -> list[Colour]:
+    if isinstance(surface, Standard):
+        return [surface.diffuse, surface.specular, surface.ambient_colour]
+    return [v for part in surface for v in (part.weight, *part.parameters) if isinstance(v, tuple)]
+
+
+def _spread_surface(surface: Standard | list[Part], count: int) -> Surface | Standard:
+    if isinstance(surface, Standard):
+        return surface._replace(
+            diffuse=spread(surface.diffuse, count),
+            specular=spread(surface.specular, count),
+            ambient=spread(surface.ambient_colour, count),
+        )
+    rows = (lobes_of(m, p, spread(w, count), count) for w, m, p in surface)
+    return Surface(tuple(lobe for row in rows for lobe in row))
+
+
+def _surface(table: SceneTable, parameters: Mapping[str, object]) -> Standard | list[Part]:
+    """A model, lobes, or the standard lighting equation."""
+    if "equation" in table.data:
+        return _standard(table)
+    if "lobes" not in table.data:
+        return [_part(table, parameters)]
+    found = [_part(t, {}) for t in table.tables("lobes")]
+    table.done()
+    return found
+
+
+def _part(table: SceneTable, parameters: Mapping[str, object]) -> Part:
+    """A model with its weight and the parameters that stand beside it or in `parameters`."""
+    weight = table.colour("weight", 1.0)
+    with table.at("model"):
+        model = loading.load(table.text_of("model"))
+    own = table.table("parameters", {})
+    sources = (table, own)
+    picks = {c: s.text_of(c) for c in model.choices for s in sources if c in s.data}
+    with table.at("model"):
+        model = model.variant(**picks) if picks else model
+        names = [model.labels.get(n, n) for n in model.Params._fields]
+        for source in sources:
+            source.know(*names, *model.choices)
+        given = {n: _value(s, n) for n in names for s in sources if n in s.data}
+        p = model.parameters(**{**given, **parameters})
+    own.done()
+    table.done()
+    return Part(weight, model, p)
+
+
+def _value(table: SceneTable, name: str) -> float | Colour:
+    row = table.colour(name, low=-math.inf)
+    return row[0] if len(row) == 1 else row
+
+
+def _standard(table: SceneTable) -> Standard:
+    table.choice("equation", ["standard"])
+    table.know("ambient")
+    made = Standard(
+        ambient=table.colour("ambient") if "ambient" in table.data else None,
+        diffuse=table.colour("diffuse"),
+        specular=table.colour("specular", 0.0),
+        gloss=table.number("gloss", 32.0, 0.0, 1e7),
+        form=Form(table.choice("form", list(Form), Form.PHONG)),
+        gloss_on_diffuse=table.flag("gloss_on_diffuse"),
+    )
+    table.done()
+    return made
+
+
+def _single(top: SceneTable, key: str) -> Colour:
     """[ambient] and [emission] have one key, radiance."""
     table = top.table(key, {})
-    colour = table.colour("radiance") if key in top.data else 0.0
+    colour = table.colour("radiance") if key in top.data else (0.0,)
     table.done()
     return colour
 
 
-def _band(top: Table) -> Band | None:
+def _band(top: SceneTable) -> Band | None:
+    top.know("spectrum")
     if "spectrum" not in top.data:
-        top.take("spectrum", None)
         return None
     table = top.table("spectrum")
     wavelengths = table.numbers("wavelengths")
-    try:
+    with table.at("wavelengths"):
         pairs([[w, 1.0] for w in wavelengths])
-        given = table.take("illuminant", "E")
-        name = given if isinstance(given, str) else None
-        light = illuminant_table(name, wavelengths[0], wavelengths[-1]) if name else pairs(given)
-    except (UserError, TypeError) as error:
-        raise table.error(
-            str(error), "wavelengths" if "wavelength" in str(error) else "illuminant"
-        ) from None
-    for end in (wavelengths[0], wavelengths[-1]):
+    first, last = wavelengths[0], wavelengths[-1]
+    given = table.take("illuminant", "E")
+    with table.at("illuminant"):
+        light = illuminant_table(given, first, last) if isinstance(given, str) else pairs(given)
+    for end in (first, last):
         if not light[0][0] <= end <= light[-1][0]:
             raise table.error(f"the illuminant has no value at {end:g} nm", "illuminant")
     table.done()
     return Band(wavelengths, light)
 
 
-def _light(table: Table) -> tuple[Any, Colour]:
-    kind = table.choice("kind", ["directional", "point"])
-    if kind == "directional":
-        made: tuple[Any, Colour] = (
-            Directional(table.direction("direction"), ()),
-            table.colour("irradiance"),
+def _directional(table: SceneTable) -> Directional:
+    return Directional(table.direction("direction"), table.colour("irradiance"))
+
+
+def _point(table: SceneTable) -> Point:
+    x, y, z = position = table.numbers("position", 3)
+    a, b, c = falloff = table.numbers("falloff", 3, (0.0, 0.0, 1.0))
+    if not any(position):
+        raise table.error("position is the shaded point itself", "position")
+    if min(falloff) < 0.0 or not any(falloff):
+        raise table.error(
+            "falloff is [a, b, c] of 1/(a + b d + c d^2), at least 0, not all 0", "falloff"
         )
-    else:
-        position = table.numbers("position", 3)
-        falloff = table.numbers("falloff", 3, (0.0, 0.0, 1.0))
-        if not any(position):
-            raise table.error("position is the shaded point itself", "position")
-        if min(falloff) < 0.0 or not any(falloff):
-            raise table.error(
-                "falloff is [a, b, c] of 1/(a + b d + c d^2), at least 0, not all 0", "falloff"
-            )
-        made = Point(position, (), falloff), table.colour("intensity")  # type: ignore[arg-type]
+    return Point((x, y, z), table.colour("intensity"), (a, b, c))
+
+
+LIGHTS: dict[str, Callable[[SceneTable], Light]] = {
+    "directional": _directional,
+    "point": _point,
+}
+
+
+def _light(table: SceneTable) -> Light:
+    light = LIGHTS[table.choice("kind", LIGHTS)](table)
     table.done()
-    return made
+    return light
 
 
-def _view(table: Table) -> View:
+def _view(table: SceneTable) -> View:
     theta = table.numbers("theta_o_deg", None, View().theta_o_deg)
     phi = table.numbers("phi_o_deg", None, View().phi_o_deg)
     if not all(0.0 <= t < 90.0 for t in theta):
@@ -112,61 +263,3 @@ def _view(table: Table) -> View:
     camera = table.direction("camera", View().camera)
     table.done()
     return View(theta, phi, camera)
-
-
-def _assembled(top: Table, raw: dict[str, Any], band: Band | None) -> Scene:
-    """The scene with every colour spread over the same number of channels."""
-    count = _channels(top, raw, band)
-
-    def row(value: Any) -> tuple[float, ...]:
-        return spread(value if isinstance(value, tuple) else (value,), count)
-
-    lights: list[Light] = [_coloured(light, row(colour)) for light, colour in raw["lights"]]
-    if isinstance(raw["surface"], Standard):
-        s = raw["surface"]
-        if raw["sky"]:
-            raise top.error(
-                "the standard lighting equation has lights and no [environment]", "environment"
-            )
-        surface: Any = s._replace(
-            diffuse=row(s.diffuse),
-            specular=row(s.specular),
-            ambient=None if s.ambient is None else row(s.ambient),
-        )
-    else:
-        parts = [lobe for w, m, p in raw["surface"] for lobe in lobes_of(m, p, row(w), count)]
-        surface = Surface(tuple(parts))
-    return Scene(
-        name=raw["name"],
-        channels=count,
-        surface=surface,
-        sky=raw["sky"].spread(count) if raw["sky"] else None,
-        lights=tuple(lights),
-        ambient=row(raw["ambient"]),
-        emission=row(raw["emission"]),
-        view=raw["view"],
-        band=band,
-    )
-
-
-def _coloured(light: Any, colour: tuple[float, ...]) -> Light:
-    name = "irradiance" if isinstance(light, Directional) else "intensity"
-    return light._replace(**{name: colour})  # type: ignore[no-any-return]
-
-
-def _channels(top: Table, raw: dict[str, Any], band: Band | None) -> int:
-    """The one number of channels that all colours of the scene have."""
-    colours = [raw["ambient"], raw["emission"], *(c for _, c in raw["lights"])]
-    if isinstance(raw["surface"], Standard):
-        colours += [v for v in raw["surface"] if isinstance(v, tuple)]
-    else:
-        colours += [v for w, _, p in raw["surface"] for v in (w, *p)]
-    widths = {len(c) for c in colours if isinstance(c, tuple)}
-    widths |= {raw["sky"].channels} if raw["sky"] else set()
-    widths |= {len(band.wavelengths)} if band else set()
-    widths -= {1}
-    if len(widths) > 1:
-        raise top.error(
-            f"all colours of a scene need the same number of channels, not {sorted(widths)}"
-        )
-    return widths.pop() if widths else 1

@@ -9,18 +9,21 @@ from __future__ import annotations
 import dis
 import functools
 import types
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.model import Model, ParameterSet, channels
+from montecarlo_brdf.scene.colour import Colour, spread
+
+Parameters = ParameterSet
 
 
 class Lobe(NamedTuple):
     """One model of a surface; weights and parameter sets have one entry per channel."""
 
     name: str
-    weights: tuple[float, ...]
+    weights: Colour
     model: Model
-    sets: tuple[Any, ...]
+    sets: tuple[Parameters, ...]
 
 
 class Surface(NamedTuple):
@@ -39,25 +42,18 @@ class Surface(NamedTuple):
         return all(ignores_directions(lobe.model) for lobe in self.lobes)
 
 
-def lobes_of(model: Model, p: Any, weights: tuple[float, ...], count: int) -> list[Lobe]:
-    """The lobes of a model with a parameter set, spread over `count` channels."""
+def lobes_of(model: Model, p: ParameterSet, weights: Colour, count: int) -> list[Lobe]:
+    """The lobes of a model with a parameter set (colours allowed), spread over `count` channels."""
     sets = spread(tuple(channels(p)), count)
     model = model.of(p)
     if not model.terms:
         return [Lobe(model.name, weights, model, sets)]
     found = []
     for term in model.terms:
-        shares = [
-            w * getattr(s, f"{term.prefix}_weight") for w, s in zip(weights, sets, strict=True)
-        ]
-        own = tuple(term.parameters_of(s) for s in sets)
-        found.append(Lobe(term.prefix, tuple(shares), term.model, own))
+        own = [getattr(s, f"{term.prefix}_weight") for s in sets]
+        shares = tuple(w * share for w, share in zip(weights, own, strict=True))
+        found.append(Lobe(term.prefix, shares, term.model, tuple(map(term.parameters_of, sets))))
     return found
-
-
-def spread(values: tuple[Any, ...], count: int) -> tuple[Any, ...]:
-    """One value per channel."""
-    return values * count if len(values) == 1 else values
 
 
 def ignores_directions(model: Model) -> bool:

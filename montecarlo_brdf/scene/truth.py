@@ -11,15 +11,14 @@ import functools
 import math
 from typing import Any
 
-from montecarlo_brdf.checks import _remembered
 from montecarlo_brdf.estimate.pointwise import Pointwise
 from montecarlo_brdf.judge.claim import Reference
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.references import _irradiance, _lit
+from montecarlo_brdf.references import _irradiance
 from montecarlo_brdf.scene import skies
-from montecarlo_brdf.scene.lights import ORIGIN
-from montecarlo_brdf.scene.scene import Scene
+from montecarlo_brdf.scene.scene import ORIGIN, Scene
 from montecarlo_brdf.scene.surface import ignores_directions
+from montecarlo_brdf.truth import true_albedo
 from montecarlo_brdf.vectors import Vec, mirrored
 
 UNKNOWN = 0.002  # width of a lobe that a model does not tell: looked for, never relied on
@@ -128,12 +127,12 @@ def _of_shape(model: Model, p: Any, shape: Any, wo: Vec) -> Reference:
 
 def _albedo(model: Model, p: Any, wo: Vec) -> Any:
     turned = {} if model.isotropic else {"phi_o": math.atan2(wo[1], wo[0])}
-    return _remembered.albedo(model.name, wo[2], **p._asdict(), **model.picks, **turned)
+    return true_albedo(model.name, wo[2], **p._asdict(), **model.picks, **turned)
 
 
 def _closed(model: Model, p: Any, shape: Any, wo: Vec) -> Reference | None:
     if isinstance(shape, skies.Cosine) and shape.axis == (0.0, 0.0, 1.0) and model.built_in:
-        truth = _lit.cosine_sky(model.name, wo[2], shape.exponent, **p._asdict())
+        truth = _irradiance.cosine_sky(model.name, wo[2], shape.exponent, **p._asdict())
         return Reference(*truth) if truth else None
     return None
 

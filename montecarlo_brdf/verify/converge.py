@@ -19,15 +19,16 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws, _truth
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.arguments import check_theta
-from montecarlo_brdf.estimate.charted import CHARTS
 from montecarlo_brdf.estimate.estimators import directional_albedo
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.samplers import charts_of, integrand_name, samplers_of
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import charts_of, integrand, samplers_of
 from montecarlo_brdf.judge.claim import Kind, Reference, Slope, SlopeClaim
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.judge.slope import SHOWN
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.directions import DIRECTIONS, Sampler
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.verify.results import (
     Progress,
@@ -106,11 +107,12 @@ def converge(
 
 def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator[SlopeClaim]:
     """One claim per sampler and point set."""
-    known = _known(case)
+    known = reference_of(case)
     floor = max(known.error / abs(known.value), 4.0 * 2.0**-52)
     (theta,) = case.theta_o_deg
     for sampler in samplers:
-        smooth = sampler in CHARTS and not (case.model.kinks and sampler != "panels")
+        kinked = case.model.kinks and sampler != Sampler.PANELS
+        smooth = DIRECTIONS[Sampler(sampler)].periodic and not kinked
         for points in sets:
             rate = CLAIMS[_claimed_as(case, sampler, points)][0 if smooth else 1]
             curve = Curve(case, sampler, points, smooth, known.value, floor)
@@ -123,7 +125,7 @@ def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator
             )
 
 
-def _known(case: Case) -> Reference:
+def reference_of(case: Case) -> Reference:
     """The reference; for a model without one, an adaptive estimate with its own error bar."""
     (theta,) = case.theta_o_deg
     found = _truth.albedo(case.model, case.one, theta, case.phi_o_deg)
@@ -201,11 +203,11 @@ class Curve(NamedTuple):
         """The errors at N = n."""
         case, replicates = self.case, randomisations(self.points)
         many = plan._replace(points=self.points, samples=n * replicates, replicates=replicates)
-        names = [integrand_name(case.model, "albedo", self.sampler)]
+        means = [integrand(case.model, Quantity.ALBEDO, self.sampler)]
         # a stream of its own per N: errors at different N are independent, as the fit assumes
         stream = (NAME, self.sampler, n)
         wo = case.wo(case.theta_o_deg[0])
-        row = estimates(case.model, case.one, wo, names, many, stream)
+        row = estimates(case.model, case.one, wo, means, many, stream)
         each = tuple(abs(m / self.truth - 1.0) for m in row[0][0].replicates)
         squares = [e * e for e in each]
         mean = math.fsum(squares) / len(squares)

@@ -11,13 +11,14 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.estimate import integrands
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.quantity import Quantity, integrand
 from montecarlo_brdf.estimate.subject import Subject
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, MeanClaim, Reference
 from montecarlo_brdf.judge.finding import Bound, Report, Result
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import NORMAL, Vec, from_degrees
 from montecarlo_brdf.verify.results import Progress, decided, reported
 from montecarlo_brdf.verify.settings import SAMPLES, Settings
@@ -94,7 +95,8 @@ class Identity(NamedTuple):
     quantity: str
     function: Callable[..., float]
     p: Power | Albedo
-    integrand: str
+    of: Quantity
+    sampler: Sampler
     exact: float
     why: str
     where: dict[str, Any] = {}
@@ -104,19 +106,22 @@ class Identity(NamedTuple):
 
 def listed() -> Iterator[Identity]:
     """All identities."""
-    uniform, cosine = "hemisphere_uniform", "hemisphere_cosine"
-    yield Identity("int dw", cosine_power, Power(0.0), uniform, 2.0 * math.pi, "solid angle")
-    yield Identity("int cos dw", cosine_power, Power(1.0), uniform, math.pi, "projected hemisphere")
+    uniform = Quantity.HEMISPHERE, Sampler.UNIFORM
+    cosine = Quantity.HEMISPHERE, Sampler.COSINE
+    yield Identity("int dw", cosine_power, Power(0.0), *uniform, 2.0 * math.pi, "solid angle")
+    projected = "projected hemisphere"
+    yield Identity("int cos dw", cosine_power, Power(1.0), *uniform, math.pi, projected)
     for n in (2, 5, 20):
         exact = 2.0 * math.pi / (n + 1)
-        yield Identity(f"int cos^{n} dw", cosine_power, Power(n), uniform, exact, "2 pi/(n + 1)")
-    yield Identity("area of the unit disk", cosine_power, Power(1.0), cosine, math.pi, "its lift")
+        yield Identity(f"int cos^{n} dw", cosine_power, Power(n), *uniform, exact, "2 pi/(n + 1)")
+    yield Identity("area of the unit disk", cosine_power, Power(1.0), *cosine, math.pi, "its lift")
     for theta in (0.0, 45.0, 85.0):
         yield Identity(
             "L_o of Lambert under L = 1 + 2 cos",
             lit_lambert,
             Albedo(),
-            "albedo_uniform",
+            Quantity.ALBEDO,
+            Sampler.UNIFORM,
             0.8 / math.pi * IRRADIANCE,
             "the same from every direction",
             {"theta_o_deg": theta},
@@ -126,7 +131,8 @@ def listed() -> Iterator[Identity]:
         "Phi_out/Phi_in under L = 1 + 2 cos",
         lit_share,
         Albedo(),
-        "bihemispherical_uniform",
+        Quantity.BIHEMISPHERICAL,
+        Sampler.UNIFORM,
         0.8,
         "the albedo under any light",
     )
@@ -134,7 +140,8 @@ def listed() -> Iterator[Identity]:
         "A of f = C_d = 1/pi",
         lambert,
         Albedo(1.0),
-        "albedo_uniform",
+        Quantity.ALBEDO,
+        Sampler.UNIFORM,
         1.0,
         "the largest constant BRDF: C_d <= 1/pi",
         bound=Bound.AT_MOST,
@@ -155,7 +162,7 @@ def claims(tolerance: float) -> Iterator[MeanClaim]:
 
 
 def _measure(identity: Identity, plan: Plan) -> list[Measurement]:
-    subject = Subject((NAME, identity.quantity), {"F": identity.function}, [identity.p])
-    integrand = getattr(integrands, identity.integrand)
-    row = evaluate(subject, identity.fixed, [integrand], plan, (NAME,))[0]
-    return [Measurement(identity.integrand.partition("_")[2], row[0])]
+    subject = Subject((NAME, identity.quantity), [identity.p])
+    mean = integrand(identity.of, identity.sampler, {"F": identity.function})
+    row = evaluate(subject, identity.fixed, [mean], plan, (NAME,))[0]
+    return [Measurement(identity.sampler, row[0])]

@@ -15,11 +15,11 @@ from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdic
 from montecarlo_brdf.model import Property
 from montecarlo_brdf.report.sentences import place
 from montecarlo_brdf.scene import claims as scene_claims
+from montecarlo_brdf.scene import plan as planning
+from montecarlo_brdf.scene.claims import reversed_scene
 from montecarlo_brdf.scene.plan import ScenePlan
-from montecarlo_brdf.scene.reverse import reversed_scene
-from montecarlo_brdf.scene.scene import Scene
-from montecarlo_brdf.scene.standard import Standard
-from montecarlo_brdf.scene.standard_lobes import as_lobes, mend
+from montecarlo_brdf.scene.scene import Scene, as_lobes
+from montecarlo_brdf.scene.standard import Standard, mend
 from montecarlo_brdf.verify.results import Progress, decided, probed, reported
 from montecarlo_brdf.verify.settings import SAMPLES, Settings, exactly
 
@@ -53,10 +53,10 @@ def radiance(
     """
     settings = Settings(points, samples, seed, threads, tolerance)
     started = time.perf_counter()
-    for lobe in as_lobes(scene).surface.lobes:  # type: ignore[union-attr]
+    for lobe in as_lobes(scene).lobes:
         for p in dict.fromkeys(lobe.sets):
             probed(lobe.model, p)
-    plan = scene_claims.plan_of(scene, skip)
+    plan = planning.make(scene, skip)
     findings = decided(
         _claims(scene, plan, tolerance, skip, energy),
         settings.plan,
@@ -93,11 +93,11 @@ def _claims(
         )
     yield from scene_claims.claims(scene, plan, tolerance)
     if energy or scene.band:
-        furnace = scene_claims.plan_of(scene.under_constant_light(1.0), skip)
+        furnace = planning.make(scene.under_constant_light(1.0), skip)
         if energy:
             yield from scene_claims.energy_claims(scene, furnace, tolerance)
             if reverse := reversed_scene(furnace.scene):
-                plan = scene_claims.plan_of(reverse, skip)
+                plan = planning.make(reverse, skip)
                 yield from scene_claims.energy_claims(scene, plan, tolerance, reverse=True)
         yield from scene_claims.band_claims(scene, furnace, tolerance)
 

@@ -94,16 +94,17 @@ KEYS = """
 import sys
 from montecarlo_brdf import load
 from montecarlo_brdf.compile.layout import pack
-from montecarlo_brdf.estimate import integrands
-from montecarlo_brdf.estimate.recipe import Recipe
+from montecarlo_brdf.estimate.moments import kernel_of
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import integrand
 for path in sys.argv[1:]:
     sys.modules.pop("other", None)
     sys.path_importer_cache.clear()
     model = load(path)
     sys.path.pop(0)
     layout, _ = pack([model.parameters()], 4)
-    functions = {"F": model.f}
-    print(Recipe("sobol", (integrands.albedo_cosine,), functions, layout).key())
+    mean = integrand(model, Quantity.ALBEDO, "cosine")
+    print(kernel_of(model.name, "sobol", [mean], layout).key)
 """
 
 

@@ -2,45 +2,44 @@
 from __future__ import annotations
 
 import math
-import types
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from montecarlo_brdf.compile import kernel
+from montecarlo_brdf.compile.bind import Specialiser
 from montecarlo_brdf.compile.layout import pack
-from montecarlo_brdf.estimate import integrands, work
-from montecarlo_brdf.estimate.moments import QUERY
-from montecarlo_brdf.estimate.recipe import Recipe
+from montecarlo_brdf.estimate import moments as template
+from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate.quantity import Integrand, Quantity
+from montecarlo_brdf.estimate.samplers import integrand
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling import points as sets
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Moments
 from montecarlo_brdf.vectors import from_degrees
 
 WO = from_degrees(50.0, 20.0)
 
 
-def functions(model: Model) -> dict[str, Any]:
-    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
-    return {name: f for name, f in bound.items() if f is not None}
+def named(model: Model, name: str) -> Integrand:
+    """'albedo_cosine' as an integrand of a model."""
+    quantity, _, sampler = name.partition("_")
+    return integrand(model, Quantity(quantity), Sampler(sampler))
 
 
 def job(model: Model, rows: Sequence[Any], names: Sequence[str], points: str, key: int,
         samples: int, replicates: int = 1) -> work.Job:  # fmt: skip
     """What `evaluate` asks of `work.run`, with its key chosen here."""
-    layout, numbers = pack([model.prepared(p) for p in rows], QUERY)
-    kinds = tuple(getattr(integrands, n) for n in names)
-    entry = kernel.kernel_of(Recipe(points, kinds, functions(model), layout))
+    layout, numbers = pack([model.prepared(p) for p in rows], template.QUERY)
+    kinds = [named(model, n) for n in names]
+    kernel = template.kernel_of(model.name, points, kinds, layout)
     shape = sets.SHAPES[points](samples) if points in sets.SHAPES else sets.NONE
     width = len(rows) * len(names)
-    return work.Job(entry, (*WO, 0.0, *numbers), width, key, replicates, samples, shape)
+    return work.Job(kernel, (*WO, 0.0, *numbers), width, key, replicates, samples, shape)
 
 
 def in_python(model: Model, p: Any, name: str) -> Callable[[Any], float]:
     """u -> x by the uncompiled integrand."""
-    template = getattr(integrands, name)
-    scope = {**template.__globals__, **functions(model)}
-    scope["drawn"] = types.FunctionType(integrands.drawn.__code__, scope)  # sees the same names
-    function = types.FunctionType(template.__code__, scope)
+    function = Specialiser(lambda plain: plain, {}).bind(named(model, name).template)
     return lambda u: float(function(u, (*WO, 0.0), model.prepared(p)))
 
 

@@ -12,7 +12,7 @@ import pytest
 import montecarlo_brdf as mb
 from montecarlo_brdf import references
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.estimate import adaptive, methods
+from montecarlo_brdf.estimate import adaptive
 from montecarlo_brdf.estimate.ascent import Ascent
 from montecarlo_brdf.vectors import from_degrees
 
@@ -133,8 +133,8 @@ def test_results_do_not_depend_on_how_often_a_kernel_is_called():
     """All near looks in one call, or one look a call: the same bytes."""
     model = mb.load("ggx")
     p = model.parameters(alpha=0.05)
-    (method, *_) = methods.methods(model)
-    setting = methods.prepare(model, p, type(p), method)
+    (method, *_) = adaptive.methods(model)
+    setting = adaptive.prepare(model, p, type(p), method)
     at_once, singly = (
         Ascent(setting, from_degrees(80.0), adaptive.Plan(target_error=1e-7), 1e9) for _ in range(2)
     )

@@ -9,7 +9,8 @@ import pytest
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.estimate import work
-from montecarlo_brdf.estimate.samplers import integrand_name, samplers_of
+from montecarlo_brdf.estimate.quantity import Quantity
+from montecarlo_brdf.estimate.samplers import samplers_of
 from montecarlo_brdf.statistics import Moments
 
 #: model -> quantities; every integrand at least once
@@ -20,10 +21,10 @@ MODELS = {
     "ggx": ["albedo", "bihemispherical"],
 }
 CASES = [
-    (name, integrand_name(mb.load(name), quantity, sampler))
+    (name, f"{quantity}_{sampler}")
     for name, quantities in MODELS.items()
     for quantity in quantities
-    for sampler in samplers_of(mb.load(name), quantity)
+    for sampler in samplers_of(mb.load(name), Quantity(quantity))
 ]
 #: Reassociation and fused operations move a value by some units of 2^-53, times the condition of
 #: the models' powers and square roots (up to 1e3 near the horizon), and sums of 300 by 300 more.

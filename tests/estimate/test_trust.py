@@ -12,8 +12,7 @@ from conftest import Outcome
 import montecarlo_brdf as mb
 from montecarlo_brdf import references
 from montecarlo_brdf.cases.case import pointwise
-from montecarlo_brdf.compile.kernel import compiled
-from montecarlo_brdf.estimate import methods, work
+from montecarlo_brdf.estimate import adaptive, work
 from montecarlo_brdf.estimate.ends import ACROSS, Ends, at_ends
 from montecarlo_brdf.estimate.trust import Sight, heeding_ends, heeding_rejected, look, reason_unfit
 from montecarlo_brdf.statistics import Estimate, estimate
@@ -142,11 +141,10 @@ def test_intervals_hold_where_the_draw_nearest_to_an_end_makes_the_error() -> No
     """Of 1,000 honest intervals at 95 % fewer than 930 hold with a chance of 2e-3."""
     model, wo, samples = mb.load("ashikhmin_shirley"), (0.0, 0.0, 1.0), 1024
     p = model.parameters()
-    method = next(m for m in methods.methods(model) if m.sampler == "own")
-    setting = methods.prepare(model, p, type(p), method)
+    method = next(m for m in adaptive.methods(model) if m.sampler == "own")
+    setting = adaptive.prepare(model, p, type(p), method)
     reals = (*wo, setting.width, *setting.numbers)
-    entry = compiled(setting.model, setting.means)
-    rows = work.run(work.Job(entry, reals, 1, 7, 16 * 1000, samples))[0]
+    rows = work.run(work.Job(setting.means(), reals, 1, 7, 16 * 1000, samples))[0]
     truth = references.albedo("ashikhmin_shirley", 1.0, **p._asdict())
     assert truth is not None
     found = [estimate(rows[k : k + 16]) for k in range(0, len(rows), 16)]

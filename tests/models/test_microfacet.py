@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from cases import IDS, VARIANTS, made
 
-from montecarlo_brdf.compile.reach import names_used, references
+from montecarlo_brdf.compile.bind import names_used, references
 from montecarlo_brdf.models import _energy, _smith
 from montecarlo_brdf.models._fresnel import conductor, dielectric
 
@@ -67,7 +67,7 @@ def test_beckmann_masking_at_every_slope() -> None:
 
 @pytest.mark.parametrize("mu", MU)
 def test_lost_energy_at_alpha_1(mu: float) -> None:
-    """Closed form: formulas.md, section 6."""
+    """Closed form: GGX of alpha 1 is Lommel-Seeliger."""
     truth = mu * math.log1p(1.0 / mu)
     assert _energy.lost_exactly(mu, 1.0) == pytest.approx(truth, rel=1e-13)
     assert _energy.lost(mu, _energy.table(1.0, 1.0)) == pytest.approx(truth, rel=1e-13)

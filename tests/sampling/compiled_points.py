@@ -10,11 +10,12 @@ import numpy as np
 
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.compile import compiler, kernel
+from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.sampling import points as sets
 
-POINTS: Any = None
-WARP: Any = None
-WIDTH: Any = None
+POINTS: Any = hole()
+WARP: Any = hole()
+WIDTH: Any = hole()
 
 
 def fill(key: Any, start: int, shape: Any, out: Any) -> None:

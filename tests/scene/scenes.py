@@ -4,7 +4,8 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.scene import claims, radiance
+from montecarlo_brdf.scene import plan as planning
+from montecarlo_brdf.scene import radiance
 from montecarlo_brdf.scene.read import read_scene
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.vectors import from_degrees
@@ -21,5 +22,5 @@ def written(folder: Path, text: str) -> Scene:
 
 def estimates(scene: Scene, theta: float, samples: int = 1 << 14, **more: Any) -> list[Any]:
     """L_o per channel."""
-    plan = claims.plan_of(scene, more.pop("skip", True))
+    plan = planning.make(scene, more.pop("skip", True))
     return radiance.measure(plan, from_degrees(theta), Plan(samples=samples, **more))

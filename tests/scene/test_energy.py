@@ -11,9 +11,9 @@ from scenes import written
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading, references
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.scene import claims
-from montecarlo_brdf.scene.make import scene_of
-from montecarlo_brdf.scene.reverse import reversed_scene
+from montecarlo_brdf.scene import claims, plan
+from montecarlo_brdf.scene.claims import reversed_scene
+from montecarlo_brdf.scene.read import scene_of
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.radiance import radiance
 
@@ -40,7 +40,7 @@ def test_reverse_albedo() -> None:
     assert reverse is not None
     model = mb.load(name)
     p = model.parameters(**values)
-    for claim in claims.energy_claims(scene, claims.plan_of(reverse), None, reverse=True):
+    for claim in claims.energy_claims(scene, plan.make(reverse), None, reverse=True):
         (found,) = claim.measure(Plan(samples=1 << 16))
         mu = from_degrees(claim.where["theta_i_deg"])[2]
         exact = references.reverse_albedo(name, mu, **p._asdict(), **model.picks)

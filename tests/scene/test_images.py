@@ -12,7 +12,7 @@ from scenes import estimates, written
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.references import _irradiance
-from montecarlo_brdf.scene.image import read_image
+from montecarlo_brdf.scene.images import read_image
 
 RANDOM = np.random.default_rng(4)
 
@@ -69,7 +69,7 @@ def test_hdr(encoded: bool, tmp_path: Path) -> None:
     content = _hdr(values, encoded)
     assert (len(content) < 4 * 16 * 300) == encoded
     (tmp_path / "sky.hdr").write_bytes(content)
-    found = read_image(tmp_path / "sky.hdr").values
+    found = read_image(tmp_path / "sky.hdr")
     step = values.max(axis=2, keepdims=True) / 128.0
     assert found.shape == values.shape
     assert (np.abs(found - values) <= 0.5 * step).all()
@@ -80,7 +80,7 @@ def test_hdr_header(tmp_path: Path) -> None:
     """Exposures are undone, all of them; another colour space is refused."""
     path, values = tmp_path / "sky.hdr", np.ones((2, 8, 3))
     path.write_bytes(_hdr(values, True, b"EXPOSURE=2\nSOFTWARE=x\nEXPOSURE= 4\n"))
-    assert read_image(path).values == pytest.approx(values / 8.0, rel=5e-3)
+    assert read_image(path) == pytest.approx(values / 8.0, rel=5e-3)
     path.write_bytes(_hdr(values, True, b"FORMAT=32-bit_rle_xyze\n"))
     with pytest.raises(UserError, match="has the format 32-bit_rle_xyze"):
         read_image(path)
@@ -93,13 +93,13 @@ def test_hdr_header(tmp_path: Path) -> None:
         read_image(path)
 
 
+def _chunk(name: bytes, data: bytes) -> bytes:
+    checked = name + data
+    return struct.pack(">I", len(data)) + checked + struct.pack(">I", zlib.crc32(checked))
+
+
 def _png(values: np.ndarray, bits: int, kind: int) -> bytes:
     """A PNG whose rows take the five filters in turn."""
-
-    def chunk(name: bytes, data: bytes) -> bytes:
-        checked = name + data
-        return struct.pack(">I", len(data)) + checked + struct.pack(">I", zlib.crc32(checked))
-
     height, width = values.shape[:2]
     rows = values.astype(f">u{bits // 8}").reshape(height, -1).view("u1").astype(int)
     step = rows.shape[1] // width
@@ -113,7 +113,7 @@ def _png(values: np.ndarray, bits: int, kind: int) -> bytes:
         above = row
     head = struct.pack(">IIBBBBB", width, height, bits, kind, 0, 0, 0)
     parts = ((b"IHDR", head), (b"IDAT", zlib.compress(body)), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(chunk(*p) for p in parts)
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*p) for p in parts)
 
 
 @pytest.mark.parametrize("bits", [8, 16])
@@ -126,10 +126,80 @@ def test_png(bits: int, kind: int, channels: int, tmp_path: Path) -> None:
     values = RANDOM.integers(0, most + 1, (12, 9, channels))
     values[0, 0] = most
     (tmp_path / "sky.png").write_bytes(_png(values, bits, kind))
-    found = read_image(tmp_path / "sky.png").values
+    found = read_image(tmp_path / "sky.png")
     shown = values[:, :, : min(channels, 3)] / most
     linear = np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
     assert found == pytest.approx(linear, rel=1e-12, abs=1e-300)
+
+
+def _deep_png(path: Path) -> np.ndarray:
+    """A file with 16 bits of RGB, and its values."""
+    values = RANDOM.integers(0, 1 << 16, (12, 9, 3))
+    path.write_bytes(_png(values, 16, 2))
+    return values
+
+
+class Documented:
+    """A picture of which nothing but what Pillow documents can be seen, and nothing changed."""
+
+    SEEN = ("__array_interface__", "convert", "height", "info", "mode", "size", "width")
+
+    def __init__(self, picture: Any) -> None:
+        object.__setattr__(self, "_picture", picture)
+
+    def __enter__(self) -> "Documented":
+        self._picture.__enter__()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._picture.__exit__(*error)
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in self.SEEN:
+            raise AttributeError(name)
+        return getattr(self._picture, name)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(name)
+
+
+def test_png_leaves_pillow_as_it_is(tmp_path: Path, monkeypatch: Any) -> None:
+    from PIL import Image
+
+    values, opened = _deep_png(tmp_path / "sky.png"), Image.open
+    monkeypatch.setattr(Image, "open", lambda *a, **more: Documented(opened(*a, **more)))
+    s = values / 65535
+    linear = np.where(s <= 0.04045, s / 12.92, ((s + 0.055) / 1.055) ** 2.4)
+    assert read_image(tmp_path / "sky.png") == pytest.approx(linear, rel=1e-12, abs=1e-300)
+
+
+def test_png_in_several_parts(tmp_path: Path) -> None:
+    """Pixels may stand in any number of chunks, and anything after the end."""
+    path = tmp_path / "sky.png"
+    _deep_png(path)
+    whole = read_image(path)
+    content = path.read_bytes()
+    at = content.index(b"IDAT")
+    length = int.from_bytes(content[at - 4 : at], "big")
+    data, rest = content[at + 4 : at + 4 + length], content[at + 8 + length :]
+    chunks = b"".join(_chunk(b"IDAT", part) for part in (data[:50], b"", data[50:]))
+    path.write_bytes(content[: at - 4] + chunks + rest + b"more")
+    assert np.array_equal(read_image(path), whole)
+
+
+def test_png_interlaced(tmp_path: Path) -> None:
+    """Adam7: seven pictures of every second, fourth or eighth pixel, none of them filtered."""
+    path = tmp_path / "sky.png"
+    values = _deep_png(path)
+    whole, body = read_image(path), b""
+    starts = ((0, 0, 8, 8), (0, 4, 8, 8), (4, 0, 8, 4), (0, 2, 4, 4), (2, 0, 4, 2), (0, 1, 2, 2))
+    for y, x, down, across in (*starts, (1, 0, 2, 1)):
+        for row in values[y::down, x::across].astype(">u2"):
+            body += b"\0" + row.tobytes()
+    head = struct.pack(">IIBBBBB", 9, 12, 16, 2, 0, 0, 1)
+    parts = ((b"IHDR", head), (b"IDAT", zlib.compress(body)), (b"IEND", b""))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*p) for p in parts))
+    assert np.array_equal(read_image(path), whole)
 
 
 def test_exr(tmp_path: Path) -> None:
@@ -138,7 +208,7 @@ def test_exr(tmp_path: Path) -> None:
     for channels in ({"RGB": values}, {"Y": values[:, :, 0].copy()}):
         header: dict[str, Any] = {"compression": exr.ZIP_COMPRESSION, "type": exr.scanlineimage}
         exr.File(header, channels).write(str(tmp_path / "sky.exr"))
-        found = read_image(tmp_path / "sky.exr").values
+        found = read_image(tmp_path / "sky.exr")
         assert np.array_equal(found[:, :, 0], values[:, :, 0].astype(float))
         assert found.shape[2] == (3 if "RGB" in channels else 1)
 
@@ -152,7 +222,7 @@ def test_a_panorama_lights_a_surface(tmp_path: Path) -> None:
         '[surface]\nmodel = "lambert"\nalbedo = 1.0\n'
         '[environment]\nkind = "image"\nfile = "sky.hdr"\n',
     )
-    decoded = read_image(tmp_path / "sky.hdr").values
+    decoded = read_image(tmp_path / "sky.hdr")
     for c, found in enumerate(estimates(scene, 30.0, 1 << 14)):
         e = found.estimate
         sums = [float(v) for v in decoded[:, :, c].sum(axis=1)]

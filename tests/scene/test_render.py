@@ -13,10 +13,8 @@ import montecarlo_brdf as mb
 from montecarlo_brdf.references import _irradiance
 from montecarlo_brdf.report.spheres import difference
 from montecarlo_brdf.scene import truth
-from montecarlo_brdf.scene.camera import disk_of, in_world
-from montecarlo_brdf.scene.make import scene_of
-from montecarlo_brdf.scene.read import read_scene
-from montecarlo_brdf.scene.render import render
+from montecarlo_brdf.scene.read import read_scene, scene_of
+from montecarlo_brdf.scene.render import disk_of, in_world, render
 from montecarlo_brdf.vectors import from_degrees
 
 LOSSLESS = [(n, p) for n in ("lambert", "eon", "ggx_kulla_conty") for p in mb.load(n).lossless]
@@ -156,11 +154,11 @@ def test_exr(tmp_path: Path) -> None:
     """What is written can be read again, also as a sky."""
     pytest.importorskip("OpenEXR")
     from montecarlo_brdf.report.spheres import save
-    from montecarlo_brdf.scene.image import read_image
+    from montecarlo_brdf.scene.images import read_image
 
     sphere = render(read_scene(EXAMPLES / "standard.toml"), size=16)
     save(tmp_path / "s.exr", [sphere], ["standard"], None)
-    assert np.allclose(read_image(tmp_path / "s.exr").values, sphere.values, rtol=1e-6)
+    assert np.allclose(read_image(tmp_path / "s.exr"), sphere.values, rtol=1e-6)
 
 
 def test_a_spectrum_is_no_picture(cli: Callable[..., Any], tmp_path: Path) -> None:

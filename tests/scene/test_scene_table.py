@@ -12,7 +12,7 @@ from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import plan, radiance, skies, truth
 from montecarlo_brdf.scene.scene import Scene
-from montecarlo_brdf.scene.sky_tables import cap_of
+from montecarlo_brdf.scene.skies import cap_of
 from montecarlo_brdf.scene.surface import Surface, lobes_of
 from montecarlo_brdf.vectors import from_degrees
 

@@ -7,10 +7,8 @@ import pytest
 
 from montecarlo_brdf.references import _irradiance, _sky
 from montecarlo_brdf.scene import skies, truth
-from montecarlo_brdf.scene.harmonics import harmonics
-from montecarlo_brdf.scene.image import Texels
-from montecarlo_brdf.scene.image_sky import texel_sky
-from montecarlo_brdf.scene.sky_tables import cap_of
+from montecarlo_brdf.scene.skies import cap_of
+from montecarlo_brdf.scene.texels import texel_sky
 from montecarlo_brdf.vectors import from_degrees
 
 TILTED = from_degrees(70.0, 40.0)
@@ -28,7 +26,7 @@ def _sphere_rule() -> tuple[np.ndarray, np.ndarray]:
 
 def test_harmonics_are_orthonormal() -> None:
     w, weight = _sphere_rule()
-    rows = np.array([harmonics(w, row) + 0.0 * w[0] for row in np.eye(25)])
+    rows = np.array([skies.harmonics(w, skies.Harmonics(row)) + 0.0 * w[0] for row in np.eye(25)])
     assert np.allclose((rows * weight) @ rows.T, np.eye(25), atol=1e-13)
 
 
@@ -38,7 +36,7 @@ def test_harmonics_irradiance(tilt: float) -> None:
     u = np.array(from_degrees(tilt, 20.0))
     w, weight = _sphere_rule()
     values = 0.7 + 0.2 * (u @ w) + (u @ w) ** 2
-    rows = np.array([harmonics(w, row) + 0.0 * w[0] for row in np.eye(25)])
+    rows = np.array([skies.harmonics(w, skies.Harmonics(row)) + 0.0 * w[0] for row in np.eye(25)])
     found = _irradiance.harmonics([float(c) for c in rows @ (weight * values)])
     exact = _irradiance.linear(0.7, 0.2, u[2]) + _irradiance.quadratic(u[2])
     assert found == pytest.approx(exact, rel=1e-13)
@@ -50,7 +48,7 @@ def test_harmonics_factors(band: int) -> None:
     shape = skies.Harmonics(coefficients)
 
     def g(w: np.ndarray) -> np.ndarray:
-        return skies.spherical_harmonics(tuple(w.T), shape)
+        return skies.harmonics(tuple(w.T), shape)
 
     value, error = _sky.adaptive(g, _sky.hemisphere((0.0, 0.0, 1.0), 0.1))
     assert abs(value - _irradiance.harmonics(coefficients)) <= error + 1e-13
@@ -67,7 +65,7 @@ def test_cap_irradiance_by_quadrature(gamma: float, beta: float) -> None:
 
 def _image() -> tuple[skies.Image, object]:
     values = np.random.default_rng(3).random((8, 16, 1)) ** 4 * 5.0
-    shapes, keep = texel_sky(Texels(values))
+    shapes, keep = texel_sky(values)
     return shapes[0], keep
 
 

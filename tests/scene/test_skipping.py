@@ -12,11 +12,10 @@ from scenes import EXAMPLES, estimates, written
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import student
-from montecarlo_brdf.scene import claims, plan, skies
-from montecarlo_brdf.scene.lights import Directional, Point
+from montecarlo_brdf.scene import plan, skies
 from montecarlo_brdf.scene.read import read_scene
-from montecarlo_brdf.scene.scene import Scene, View
-from montecarlo_brdf.scene.sky_tables import cap_of
+from montecarlo_brdf.scene.scene import Directional, Point, Scene, View
+from montecarlo_brdf.scene.skies import cap_of
 from montecarlo_brdf.scene.surface import Lobe, Surface
 from montecarlo_brdf.vectors import from_degrees
 
@@ -121,7 +120,7 @@ def test_random_scenes(scene: Scene, theta: float) -> None:
 
 def _skipped(scene: Scene) -> str:
     return "; ".join(
-        f"{i.what}: {i.reason}" for i in claims.plan_of(scene).items if not i.evaluated
+        f"{i.what}: {i.reason}" for i in plan.make(scene).items if not i.evaluated
     )
 
 

@@ -10,9 +10,10 @@ import montecarlo_brdf as mb
 from montecarlo_brdf import references
 from montecarlo_brdf.references._phong import double_axis, single_axis
 from montecarlo_brdf.scene import claims, truth
+from montecarlo_brdf.scene import plan as planning
 from montecarlo_brdf.scene.radiance import value_of
-from montecarlo_brdf.scene.standard import Standard, shade
-from montecarlo_brdf.scene.standard_lobes import as_lobes, factors, surface_of
+from montecarlo_brdf.scene.scene import as_lobes
+from montecarlo_brdf.scene.standard import Form, Standard, factors, shade
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.radiance import radiance
 
@@ -23,7 +24,7 @@ LIGHTS = [
     (from_degrees(50.0, 180.0), (0.3, 0.3, 1.1)),
     (from_degrees(0.0, 0.0), (0.4, 0.0, 0.2)),
 ]
-MENDED = [("phong", "phong", {}), ("blinn", "blinn_phong", {"norm": "exact"})]
+MENDED = [(Form.PHONG, "phong", {}), (Form.BLINN, "blinn_phong", {"norm": "exact"})]
 WO, WI = from_degrees(35.0), from_degrees(42.0, 170.0)
 AMBIENT, EMISSION = (0.05, 0.04, 0.1), (0.01, 0.0, 0.02)
 SURFACE = Standard((0.6, 0.3, 0.2), (0.4, 0.4, 0.1), gloss=13.0)
@@ -39,7 +40,7 @@ def _formula(s: Standard, theta: float, count: int) -> list[float]:
         if t >= 90.0:
             continue
         across = math.sin(i) * math.sin(o) * math.cos(phi)
-        if s.form == "phong":
+        if s.form is Form.PHONG:
             lobe = max(0.0, math.cos(i) * math.cos(o) - across)
         else:
             lobe = (math.cos(i) + math.cos(o)) / math.sqrt(
@@ -52,9 +53,9 @@ def _formula(s: Standard, theta: float, count: int) -> list[float]:
 
 
 @pytest.mark.parametrize("count", [0, 1, 5])
-@pytest.mark.parametrize("form", ["phong", "blinn"])
+@pytest.mark.parametrize("form", list(Form))
 @pytest.mark.parametrize("printed", [False, True])
-def test_equals_its_formula(count: int, form: str, printed: bool) -> None:
+def test_equals_its_formula(count: int, form: Form, printed: bool) -> None:
     s = SURFACE._replace(form=form, gloss_on_diffuse=printed)
     for theta in (0.0, 35.0, 70.0, 89.0):
         found = shade(s, from_degrees(theta), LIGHTS[:count], AMBIENT, EMISSION)
@@ -89,12 +90,12 @@ intensity = 3.0
 """
 
 
-@pytest.mark.parametrize("form", ["phong", "blinn"])
+@pytest.mark.parametrize("form", list(Form))
 @pytest.mark.parametrize("printed", ["false", "true"])
-def test_equals_its_reading_as_lobes(form: str, printed: str, tmp_path: Any) -> None:
+def test_equals_its_reading_as_lobes(form: Form, printed: str, tmp_path: Any) -> None:
     """The equation and the sum f E cos over lights of its lobes, which share no code."""
     scene = written(tmp_path, FILE.replace("FORM", form).replace("PRINTED", printed))
-    plan = claims.plan_of(scene)
+    plan = planning.make(scene)
     for claim in claims.claims(scene, plan):
         (found,) = claim.measure(None)  # type: ignore[arg-type]
         assert found.estimate.mean == pytest.approx(claim.expected.value, rel=1e-12)
@@ -127,12 +128,12 @@ def test_energy_is_read_and_mended(tmp_path: Any) -> None:
 
 
 @pytest.mark.parametrize(("form", "name", "norm"), MENDED)
-def test_what_mends_it(form: str, name: str, norm: dict[str, str]) -> None:
+def test_what_mends_it(form: Form, name: str, norm: dict[str, str]) -> None:
     """With the factors and n.l the lobes are models that reflect no more than arrives."""
     for n in (0.5, 4.0, 30.0, 900.0):
         s = SURFACE._replace(form=form, gloss=n)
         diffuse, specular = factors(s)
-        lobes = surface_of(s).lobes
+        lobes = s.as_surface().lobes
         model = mb.load(name, **norm)
         p = model.parameters(ks=1.0, n=n)
         assert diffuse * lobes[0].model.f(WO, WI, lobes[0].sets[0]) == pytest.approx(1.0 / math.pi)
@@ -146,4 +147,4 @@ def test_what_mends_it(form: str, name: str, norm: dict[str, str]) -> None:
 
 
 def test_lobes_of_the_equation() -> None:
-    assert [lobe.name for lobe in surface_of(SURFACE).lobes] == ["diffuse", "specular"]
+    assert [lobe.name for lobe in SURFACE.as_surface().lobes] == ["diffuse", "specular"]

@@ -49,6 +49,10 @@ WRONG = {
     "[spectrum]\nwavelengths = [500, 400]\n"
     + SURFACE: "line 2: the wavelengths of a spectrum must",
     SPECTRUM + 'illuminant = "D99"\n' + SURFACE: "illuminant",
+    SPECTRUM + "illuminant = [[-400, 1]]\n" + SURFACE: "line 3: wavelengths are positive numbers",
+    SPECTRUM + "illuminant = 3\n" + SURFACE: "line 3: a spectrum is a list of",
+    SPECTRUM + SURFACE + f"albedo = [[{10**400}, 1]]": "line 5: albedo: a spectrum is a list of",
+    SURFACE + f"albedo = {'9' * 5000}": "not a TOML file",
 }
 
 
@@ -62,6 +66,20 @@ def test_scene(text: str, cli: Callable[..., Any], tmp_path: Path) -> None:
     assert outcome.err.count("\n") == 1
     assert WRONG[text] in outcome.err
     assert not out.exists()
+
+
+def test_the_line_is_that_of_the_parameter(cli: Callable[..., Any], tmp_path: Path) -> None:
+    """Also where the name of another parameter is the end of its name."""
+    model, file = tmp_path / "mine.py", tmp_path / "scene.toml"
+    model.write_text(
+        "from typing import NamedTuple\n\n\nclass Params(NamedTuple):\n    a: float = 1.0\n"
+        "    beta: float = 0.5\n\n\ndomain = {'beta': (0.0, 1.0)}\n\n\n"
+        "def f(wo, wi, p):\n    return p.a * p.beta\n"
+    )
+    file.write_text(f"[surface]\nmodel = '{model}'\na = 0.2\nbeta = 2.0\n")
+    outcome = cli("radiance", str(file))
+    assert outcome.code == 2
+    assert "line 4: beta of model" in outcome.err
 
 
 def _image_scene(folder: Path, name: str) -> str:

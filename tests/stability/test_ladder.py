@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from in_precision import in_precision
+from columns import in_precision
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import ModelError

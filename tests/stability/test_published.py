@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from in_precision import in_precision
+from columns import in_precision
 
 from montecarlo_brdf.stability import arithmetic, ladder
 from montecarlo_brdf.stability.specimens import (

@@ -21,7 +21,7 @@ def verdicts(report):
 @pytest.fixture
 def fresh_kernels(monkeypatch):
     """Functions already compiled would hide what a test replaces."""
-    monkeypatch.setattr(kernel, "_seen", {})
+    monkeypatch.setattr(kernel, "_kernels", {})
     kernel.specialiser.cache_clear()
     yield
     kernel.specialiser.cache_clear()

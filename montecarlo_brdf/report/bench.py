@@ -1,0 +1,58 @@
+"""A benchmark of methods in words and as a picture: pure functions of its plain data."""
+from __future__ import annotations
+
+import textwrap
+from typing import Any
+
+from montecarlo_brdf.report.plots import COLOURS
+from montecarlo_brdf.report.sentences import called
+
+#: A line and a marker for each point set, and for "auto"; colours stand for samplers.
+STYLES = {"independent": ":o", "stratified": "-.s", "sobol": "--^", "lattice": "-D", "": "-*"}
+ROW = "{mark} {method:<27} {samples:>9} {error:>9.1e} {seconds:>9.2g} {each:>10.3g}"
+
+
+def table(data: dict[str, Any]) -> str:
+    """For each target what every method needs, fastest first; then the methods that miss it."""
+    known = data["reference"]
+    lines = [
+        title(data),
+        f"A = {known['value']:.10g} ({known['kind']}, to {known['relative_error']:.0e})",
+        f"Relative errors: root mean square of {data['seeds']} seeds. Times: of the processor.",
+    ]
+    for target, rows in data["targets"].items():
+        lines += ["", f"  to {target:<25}   samples     error   seconds  ns/sample"]
+        for mark, row in zip("*" + " " * len(rows), rows, strict=False):
+            lines += [ROW.format(mark=mark, each=1e9 * row["seconds"] / row["samples"], **row)]
+        missed = [m for m in data["methods"] if m not in {row["method"] for row in rows}]
+        lines += [f"  {method:<27} not within {data['seconds']:g} s" for method in missed]
+    return "\n".join([*lines, "", "* fastest"]) + "\n"
+
+
+def title(data: dict[str, Any]) -> str:
+    """'ggx(alpha=0.3) at 60°', on several lines if it is long."""
+    angles = ", ".join(f"{angle:g}°" for angle in data["where"].values())
+    return textwrap.fill(f"{called(data['model'], data['params'])} at {angles}", 60)
+
+
+def figure(data: dict[str, Any]) -> Any:
+    """Relative error against processor seconds, one line per method; what is exact at 1e-17."""
+    from matplotlib.figure import Figure
+
+    drawn = Figure(figsize=(9.0, 5.5), layout="constrained")
+    axes = drawn.subplots()
+    axes.set(xscale="log", yscale="log", ylabel="relative error", title=title(data))
+    axes.set_xlabel("processor time of one estimate (s)")
+    axes.tick_params(which="minor", labelsize=6)  # larger ones overlap
+    samplers = [*dict.fromkeys(m.partition(" x ")[0] for m in data["methods"] if " x " in m)]
+    for method in data["methods"]:
+        sampler, _, points = method.partition(" x ")
+        colour = COLOURS[samplers.index(sampler)] if points else "black"
+        rows = [t for t in data["timings"] if t["method"] == method]
+        times, errors = [t["seconds"] for t in rows], [max(t["error"], 1e-17) for t in rows]
+        axes.plot(times, errors, STYLES[points], color=colour, label=method,
+                  markersize=4 if points else 9, linewidth=1.2 if points else 2.0)  # fmt: skip
+    axes.axhline(data["reference"]["relative_error"], color="0.5", label="error of the known value")
+    axes.grid(alpha=0.25)
+    drawn.legend(loc="outside right upper", fontsize=8)
+    return drawn
