@@ -72,9 +72,8 @@ def reproduction(model: Model, precision: str, found: Found) -> str:
     numbers = {n: repr(float(v)) for n, v in zip(found.p._fields, found.p, strict=True)}
     assignments = "".join(f" -p {n}={v}" for n, v in {**numbers, **model.picks}.items())
     point = ",".join(repr(float(x)) for x in (*found.wo, *found.wi))
-    return (
-        f"brdf-check stress --model {model.name}{assignments} --precision {precision} --at {point}"
-    )
+    subject = f"--model {model.name}{assignments} --precision {precision}"
+    return f"brdf-check stress {subject} --at {point}"
 
 
 def _safe(loss: Loss, name: str, value: float) -> Limit:

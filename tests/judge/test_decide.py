@@ -259,7 +259,7 @@ def test_resolves_is_a_deviation_that_the_last_look_would_have_failed() -> None:
             assert judged(claim(steady(1, 1)), m, level)[0].verdict == verdict
 
 
-@pytest.mark.parametrize(("kind", "by"), [("independent", "cosine"), ("quadrature of it", "own")])
+@pytest.mark.parametrize(("kind", "by"), [("independent", "cosine"), ("quadrature", "own")])
 def test_what_is_resolved_of_the_same_f_is_what_the_sampler_resolves(kind: str, by: str) -> None:
     """A deviation of the others would refute the quadrature, not the model."""
     found = {}
