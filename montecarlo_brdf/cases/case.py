@@ -24,6 +24,12 @@ class Case(NamedTuple):
     free: tuple[str, ...] = ()  # parameters that a worst-case search may vary
     against: Model | None = None  # a model that it must equal
     seed: int = 0
+    effort: float = 1.0  # in (0, 1], see `budget`
+
+    def budget(self, most: int, least: int = 1) -> int:
+        """How many of `most` pairs, places, nodes, draws or parameter sets are looked at: all of them
+        at effort 1, else their share, and `least` at least."""
+        return most if self.effort == 1.0 else min(most, max(least, math.ceil(self.effort * most)))
 
     @property
     def sets(self) -> list[Any]:

@@ -58,7 +58,7 @@ def edge_pairs() -> tuple[Array, Array]:
     )
 
 
-def random_pairs(rng: Any, n: int = RANDOM) -> tuple[Array, Array]:
+def random_pairs(rng: Any, n: int) -> tuple[Array, Array]:
     """Uniform directions, half of them with cosines spread evenly over their logarithm."""
 
     def some() -> Array:
@@ -72,7 +72,7 @@ def random_pairs(rng: Any, n: int = RANDOM) -> tuple[Array, Array]:
     return some(), some()
 
 
-def special_pairs(rng: Any, n: int = SPECIAL) -> tuple[Array, Array]:
+def special_pairs(rng: Any, n: int) -> tuple[Array, Array]:
     """wi = wo and wi = mirror of wo at random directions, exactly and an ulp or two beside."""
     wo, _ = random_pairs(rng, n)
     partners = [wo, wo * MIRROR]
@@ -80,7 +80,7 @@ def special_pairs(rng: Any, n: int = SPECIAL) -> tuple[Array, Array]:
     return np.concatenate([wo] * len(partners)), np.concatenate(partners)
 
 
-def lobe_pairs(case: Case, p: Any, rng: Any, n: int = LOBE) -> tuple[Array, Array]:
+def lobe_pairs(case: Case, p: Any, rng: Any, n: int) -> tuple[Array, Array]:
     """Random wo with wi drawn by the model's own sampler: pairs that see a lobe of any width."""
     if case.model.sample is None:
         wo, _ = random_pairs(rng, n)
@@ -96,7 +96,13 @@ def lobe_pairs(case: Case, p: Any, rng: Any, n: int = LOBE) -> tuple[Array, Arra
 
 def all_pairs(case: Case, p: Any, rng: Any, *more: tuple[Array, Array]) -> tuple[Array, Array]:
     """Edges, random pairs, special pairs, pairs along the lobe, and `more`."""
-    kinds = [edge_pairs(), random_pairs(rng), special_pairs(rng), lobe_pairs(case, p, rng), *more]
+    kinds = [
+        edge_pairs(),
+        random_pairs(rng, case.budget(RANDOM)),
+        special_pairs(rng, case.budget(SPECIAL)),
+        lobe_pairs(case, p, rng, case.budget(LOBE)),
+        *more,
+    ]
     return np.concatenate([k[0] for k in kinds]), np.concatenate([k[1] for k in kinds])
 
 
@@ -106,10 +112,11 @@ def worst_pair(
     """(parameters, pair) of the worst of many random pairs, each with free parameters of its own,
     now and then at the ends of their ranges: what goes wrong in a corner of directions and
     parameters together. deviation(wo, wi, parameter sets); few: they are costly to prepare."""
-    wo, wi = random_pairs(rng, SCATTERED)
-    t = np.clip(1.1 * rng.random((SCATTERED, len(case.free))) - 0.05, 0.0, 1.0)
+    n = case.budget(SCATTERED)
+    wo, wi = random_pairs(rng, n)
+    t = np.clip(1.1 * rng.random((n, len(case.free))) - 0.05, 0.0, 1.0)
     if few or case.model.prepare:
-        t = t[np.arange(SCATTERED) % PREPARED]
+        t = t[np.arange(n) % PREPARED]
     sets = parameters.rows(case, t)
     k = int(np.argmax(deviation(wo, wi, sets)))
     return sets.parameters(k), (wo[k : k + 1], wi[k : k + 1])

@@ -62,7 +62,7 @@ def position(case: Case, p: Any) -> dict[str, float]:
 def sets(case: Case, count: int = INTERIORS) -> Iterator[Any]:
     """The channels asked about, then points of the interior (a Sobol set, the same every time)."""
     yield from case.sets
-    yield from itertools.islice(sets_inside(case), count)
+    yield from itertools.islice(sets_inside(case), case.budget(count))
 
 
 def sets_inside(case: Case) -> Iterator[Any]:
@@ -89,7 +89,7 @@ PLACES = ((45.0, 130.0), (70.0, 250.0), (30.0, 20.0), (55.0, 200.0), (75.0, 310.
 
 def elsewhere(case: Case) -> Iterator[tuple[Case, float]]:
     """The case turned, then other parameters at other angles: mistakes that defaults hide."""
-    sets = [case.one, *itertools.islice(sets_inside(case), len(PLACES) - 1)]
+    sets = [case.one, *itertools.islice(sets_inside(case), case.budget(len(PLACES) - 1))]
     for p, (theta, phi) in zip(sets, PLACES, strict=False):
         yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
 

@@ -33,6 +33,7 @@ PLACES = (512, 4096, 16384)
 PREPARED = 48
 #: nodes of a mean: draws of the model's own sampler, or (slopes, azimuths) where it has none
 NODES = {"scan": (64, (16, 8)), "climb": (1024, (32, 24)), "polish": (1 << 16, (128, 128))}
+FEWEST = 64  # nodes at any effort
 CANDIDATES = 2048  # places of the scan among which the best are chosen
 KEPT = 64  # places of the scan that are looked at again
 APART = 0.15  # between two of them, in one of the coordinates
@@ -134,6 +135,7 @@ def _side(space: Space, w: Array, sets: scattered.Rows) -> Array:
 
 def _nodes(space: Space, quantity: str, stage: str) -> Array:
     draws, cells = NODES[stage]
+    draws = space.case.budget(draws, FEWEST)
     if samplers_of(space.case.model, quantity)[-1] == "own":
         u = net(draws, stream(space.case.seed, "search"))
         return np.concatenate([u, np.full((draws, 1), 1.0 / draws)], axis=1)
@@ -144,7 +146,7 @@ def _nodes(space: Space, quantity: str, stage: str) -> Array:
 def worst(space: Space, value: Value) -> Spot:
     """Where `value` is largest, as far as scan, lines and steps can tell."""
     scanned = _scan(space)
-    kept = _best(scanned, value(scanned, "scan"), KEPT)
+    kept = _best(scanned, value(scanned, "scan"), space.case.budget(KEPT, CLIMBING))
     starts = _best(kept, value(kept, "climb"), CLIMBING)
     starts = np.concatenate([starts, [_lines(space, value, starts[0])]])
     tops = _climb(value, starts)
@@ -169,7 +171,7 @@ def _best(places: Array, values: Array, count: int) -> Array:
 def _scan(space: Space) -> Array:
     """The case's own parameters at some angles, then places everywhere."""
     own = [(t / LAST, *(0.0,) * space.turning, *space.own()) for t in ANGLES]
-    n = PLACES[min(space.size, len(PLACES)) - 1]
+    n = space.case.budget(PLACES[min(space.size, len(PLACES)) - 1])
     at = spread(n, space.size, stream(space.case.seed, "places"))
     at = np.clip((1.0 + 2.0 * BEYOND) * at - BEYOND, 0.0, 1.0)
     if space.case.model.prepare:

@@ -40,7 +40,9 @@ def values(case: Case, _: Any) -> Exact:
     """How often pdf is negative or not finite, also where it is not drawn but asked by others."""
     count, points, where, hint = 0, 0, {}, None
     for k, p in enumerate(parameters.sets(case, 3)):
-        wo, wi = directions.random_pairs(case.random(NAME, "values", k))
+        wo, wi = directions.random_pairs(
+            case.random(NAME, "values", k), case.budget(directions.RANDOM)
+        )
         density = pointwise(case.model, p).pdf(wo, wi)
         bad = ~(np.isfinite(density) & (density >= 0.0))
         if bad.any() and not count:
@@ -51,7 +53,7 @@ def values(case: Case, _: Any) -> Exact:
     return Exact(float(count), 0.0, where, points, hint=hint)
 
 
-def draws(case: Case, theta: float, n: int = POINTS) -> tuple[Any, Any, Any]:
+def draws(case: Case, theta: float, n: int) -> tuple[Any, Any, Any]:
     """(u, directions, weights) of n draws."""
     u = case.random(NAME, theta).random((n, 3)) * (1.0 - 2.0 * MARGIN) + MARGIN
     return u, *pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
@@ -91,7 +93,7 @@ def faults(case: Case, theta: float) -> Exact:
     refuted.
     """
     edges = _edges()
-    u = np.concatenate([edges, case.random(NAME, "edges", theta).random((POINTS, 3))])
+    u = np.concatenate([edges, case.random(NAME, "edges", theta).random((case.budget(POINTS), 3))])
     kinds, dark = _kinds(case, np.array(case.wo(theta)), u)
     dark[len(edges) :] = False  # elsewhere than at the ends it is a fault like any other
     if case.model.pdf is not None:
@@ -215,7 +217,7 @@ def _ratio(pdf: Any, area: Any, wo: Any, w: Any) -> str:
 def weight(case: Case, theta: float) -> Exact:
     """The largest relative difference of the returned weight from f cos/pdf."""
     functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    _, w, weight = draws(case, theta)
+    _, w, weight = draws(case, theta, case.budget(POINTS))
     above = (w[:, 2] > 0.0) & np.isfinite(weight)
     expected = functions.f(wo, w[above]) * w[above][:, 2] / functions.pdf(wo, w[above])
     ratio = weight[above] / np.where(expected == 0.0, 1e-300, expected)

@@ -46,7 +46,10 @@ def _worst(case: Case) -> Exact:
 
 def _worst_turned(case: Case, p: Any, rng: Any) -> Exact:
     """The pair whose f changes most when it is turned by an azimuth of its own."""
-    kinds = [directions.random_pairs(rng), directions.lobe_pairs(case, p, rng)]
+    kinds = [
+        directions.random_pairs(rng, case.budget(directions.RANDOM)),
+        directions.lobe_pairs(case, p, rng, case.budget(directions.LOBE)),
+    ]
     wo, wi = (np.concatenate(side) for side in zip(*kinds, strict=True))
     phi = 2.0 * np.pi * rng.random(len(wo))
     f = pointwise(case.model, p).f

@@ -61,7 +61,7 @@ def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
         yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
     else:
         yield _claim(case, theta, "|pdf Jacobian - 1|", _draws.JACOBIAN_TOLERANCE, _draws.jacobian)
-    if np.isfinite(_draws.draws(case, theta)[2]).any():
+    if np.isfinite(_draws.draws(case, theta, case.budget(_draws.POINTS))[2]).any():
         yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, _draws.weight)
 
 

@@ -105,7 +105,8 @@ def _smallest(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> Exa
 
 def _scale(case: Case, p: Any, wo: Any, wi: Any) -> Any:
     """The largest |f| between the polar angles of each pair, and at least the median of |f|."""
-    f = np.abs(pointwise(case.model, p).f(*directions.random_pairs(case.random(NAME, "median"))))
+    pairs = directions.random_pairs(case.random(NAME, "median"), case.budget(directions.RANDOM))
+    f = np.abs(pointwise(case.model, p).f(*pairs))
     f = f[np.isfinite(f) & (f > 0.0)]
     scale = np.full(len(wo), np.median(f) if len(f) else 1.0)
     return np.fmax(scale, directions.around(pointwise(case.model, p).f, wo, wi))

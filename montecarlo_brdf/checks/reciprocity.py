@@ -51,7 +51,7 @@ def worst(case: Case) -> Exact:
     if case.free:
         p, pair = directions.worst_pair(case, case.random(NAME, "everywhere"), asymmetry)
         one = _worst_of(case, p, case.random(NAME, "there"), pair)
-        looks.append(one._replace(points=one.points + directions.SCATTERED))
+        looks.append(one._replace(points=one.points + case.budget(directions.SCATTERED)))
     return worst_of(reversed(looks))  # of equal ones the first
 
 

@@ -99,7 +99,7 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     if _draws.density_integral(case, theta).missed > UNSURE:
         hidden = "a lobe of pdf lies where half vectors do not show it"
         return Fit(math.nan, math.inf, 1.0, 0, hidden)
-    n = min(math.ceil(DRAWS * plan.samples), MOST)
+    n = min(math.ceil(DRAWS * plan.samples), case.budget(MOST))
     place = (theta, case.phi_o_deg, *case.one)
     key = stream(plan.seed, case.model.name, NAME, *place, n)
     counts, expected = cells.counts(key, n, plan.threads), cells.probability

@@ -31,6 +31,7 @@ class Job(NamedTuple):
     samples: int = RUN_SAMPLES
     seed: int = 0
     tolerance: float | None = None
+    effort: float = 1.0
 
     def title(self) -> str:
         """'lambert(albedo=0.2)'; of what is searched only the name."""
@@ -62,6 +63,7 @@ def from_options(options: dict[str, Any], seed: int) -> list[Job]:
         "samples": RUN_SAMPLES if options["samples"] is None else options["samples"],
         "seed": seed,
         "tolerance": options["tolerance"],
+        "effort": options["effort"],
     }
     specs = models_of(options["spec"])
     return [with_parameters(loading.load(s), options["assignments"], shared) for s in specs]

@@ -20,7 +20,7 @@ from montecarlo_brdf.verify.common import Deadline
 
 INTERRUPTED = 130
 #: options that stand above a project's file if they are given -> the field of Job
-ABOVE = {"samples": "samples", "points": "points", "tolerance": "tolerance"}
+ABOVE = {k: k for k in ("samples", "points", "tolerance", "effort")}
 #: options that only make sense with --model
 LOCAL = {
     "assignments": "-p",

@@ -33,6 +33,8 @@ Examples:
               help="A model that it must equal in values. [--against ggx]")
 @click.option("--max-time", type=float, metavar="SECONDS",
               help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
+@click.option("--effort", type=_options.Number("in (0, 1]"), default=1.0, show_default=True,
+              help="Share of the pairs, places and nodes that checks look at. [--effort 0.1]")
 @click.option("--baseline", type=click.Path(path_type=Path), metavar="REPORT.json",
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
               "[--baseline main.json]")  # fmt: skip

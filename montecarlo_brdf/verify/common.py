@@ -59,7 +59,9 @@ def reported(
 
 def plan_settings(plan: Plan) -> dict[str, Any]:
     """What the results depend on; the number of threads is not among it."""
-    settings = {"points": plan.points, "samples": plan.samples, "seed": plan.seed}
+    settings: dict[str, Any] = {"points": plan.points, "samples": plan.samples, "seed": plan.seed}
+    if plan.effort != 1.0:
+        settings["effort"] = plan.effort
     if plan.target_error is not None or plan.method != "given":
         settings |= {"target_error": plan.target_error, "method": plan.method}
     return settings
@@ -95,6 +97,13 @@ def check_tolerance(tolerance: float | None) -> None:
     """Raise UserError unless a tolerance is None or in [0, 1)."""
     if tolerance is not None and not 0.0 <= tolerance < 1.0:
         raise UserError(f"tolerance must be a number in [0, 1), not {tolerance}")
+
+
+def check_effort(effort: float) -> float:
+    """An effort in (0, 1], or a UserError."""
+    if isinstance(effort, bool) or not (isinstance(effort, int | float) and 0.0 < effort <= 1.0):
+        raise UserError(f"effort must be a number in (0, 1], not {effort}")
+    return effort
 
 
 def exactly(value: float) -> str:

@@ -23,6 +23,7 @@ def reproduction(case: Case, name: str, plan: Plan) -> str:
         "--points": (plan.points, "sobol"),
         "--samples": (plan.samples, RUN_SAMPLES),
         "--seed": (plan.seed, 0),
+        "--effort": (plan.effort, 1.0),
         "--against": (case.against.name if case.against else None, None),
     }
     for option, (value, default) in defaults.items():

@@ -18,6 +18,7 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify.common import (
     Deadline,
     Progress,
+    check_effort,
     check_tolerance,
     plan_settings,
     planned,
@@ -43,19 +44,21 @@ def run(
     seed: int = 0,
     threads: int | None = None,
     tolerance: float | None = None,
+    effort: float = 1.0,
     deadline: Deadline | None = None,
     progress: Progress | None = None,
 ) -> Report:
     """Every check (or those in `names`) of a model with one or several parameter sets.
 
     fixed: parameters that worst-case searches leave alone; the others are searched over their
-    range unless `p` is given. deadline: stop in time and report what is left as inconclusive.
+    range unless `p` is given. effort: the share, in (0, 1], of the pairs, places and nodes that
+    checks look at: a look in passing, which may miss what a whole one finds. deadline: stop in time and report what is left as inconclusive.
     Other arguments as for `furnace`. An interruption returns what was found so far.
     """
     chosen = _checks(names)
     sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
     angles = [check_theta(a) for a in theta_o_deg]
-    plan = planned(points, samples, seed, threads)
+    plan = planned(points, samples, seed, threads)._replace(effort=check_effort(effort))
     check_tolerance(tolerance)
     started = time.perf_counter()
     deadline = deadline or Deadline(math.inf)
@@ -63,9 +66,8 @@ def run(
     for one in sets:
         variant = model.of(one)
         free = searched(variant, dict.fromkeys(fixed)) if p is None or fixed else ()
-        case = Case(
-            variant, one, angles, phi_o_deg, None, tolerance, free, against=against, seed=seed
-        )
+        where = variant, one, angles, phi_o_deg, None, tolerance, free
+        case = Case(*where, against=against, seed=seed, effort=effort)
         groups.append([Task(case, name) for name in chosen])
     why, interrupted = "--max-time was over", False
     try:
