@@ -8,12 +8,10 @@ direction or at wo itself. It cannot see: a sharp lobe elsewhere.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
-from montecarlo_brdf.cases.case import pointwise
+from montecarlo_brdf.cases.case import Parameters, pointwise
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
@@ -28,26 +26,35 @@ from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.vectors import Vec, mirrored
 
+#: light from a direction, of the sky that a number names
+Sky = Callable[[Vec, float], float]
+#: an integrand of estimate.slopes
+Integrand = Callable[[Any, Any, Any], float]
+Place = Sequence[float]
+Functions = Mapping[str, Callable[..., float] | None]  # F, PDF, SKY as an integrand names them
+
 NAME = "slopes"
 SAMPLES = 1 << 20
 AGREE = 6.0  # standard errors: what uniform directions miss of a sharp lobe is far more
 
 
-def albedo(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
+def albedo(model: Model, one: Parameters, wo: Vec, seed: int) -> Measurement:
     """A(wo)."""
     side = side_of(model, one, wo)
     bound = {"F": model.f}
     return _measured(model, one, (*wo, side), bound, albedo_slopes, seed)
 
 
-def radiance(model: Model, one: Any, wo: Vec, sky: Any, which: float, seed: int) -> Measurement:
+def radiance(
+    model: Model, one: Parameters, wo: Vec, sky: Sky, which: float, seed: int
+) -> Measurement:
     """Reflected radiance under sky(w, which)."""
     place = (*wo, side_of(model, one, wo) * (1.0 + which))
     bound = {"F": model.f, "SKY": sky}
     return _measured(model, one, place, bound, radiance_slopes, seed)
 
 
-def mass(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
+def mass(model: Model, one: Parameters, wo: Vec, seed: int) -> Measurement:
     """int pdf dwi; by uniform directions where those agree and are more precise."""
     place, bound = (*wo, 1.0), {"PDF": model.pdf}
     slopes = _measured(model, one, place, bound, density_slopes, seed)
@@ -57,14 +64,21 @@ def mass(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
     return uniform._replace(estimator="uniform") if agree and b.stderr < a.stderr else slopes
 
 
-def side_of(model: Model, one: Any, wo: Vec) -> float:
+def side_of(model: Model, one: Parameters, wo: Vec) -> float:
     """-1 where f is larger towards wo itself than towards its mirror direction, else 1."""
+    import numpy as np
+
     both = pointwise(model, one).f(np.array(wo), np.array([wo, mirrored(wo)]))
     return -1.0 if both[0] > 2.0 * both[1] else 1.0
 
 
 def _measured(
-    model: Model, one: Any, place: Any, functions: Mapping[str, Any], integrand: Any, seed: int
+    model: Model,
+    one: Parameters,
+    place: Place,
+    functions: Functions,
+    integrand: Integrand,
+    seed: int,
 ) -> Measurement:
     subject = Subject((model.name, *map(repr, one)), functions, [model.prepared(one)])
     e = evaluate(subject, place, [integrand], Plan(samples=SAMPLES, seed=seed), (NAME,))[0][0]

@@ -6,12 +6,13 @@ about the distance d = sqrt(chi2/N) of the two distributions: pass if it is sure
 if chi2 rejects twice. It cannot see: differences within a cell; a density that is wrong by a
 constant factor shows in `pdf`.
 """
+
 from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,17 +23,24 @@ from montecarlo_brdf.checks._cells import COARSE, FINE, FINEST, UNSURE, Cells
 from montecarlo_brdf.estimate.counting import COLUMNS, ROWS
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Fit, FitClaim, Skip
+from montecarlo_brdf.model import Property
 from montecarlo_brdf.sampling.streams import stream
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array
 
 NAME = "sampling"
 QUESTION = "do drawn directions follow pdf?"
-PROPERTY = "pdf"
+PROPERTY = Property.PDF
 TOLERANCE = 0.015
 DRAWS = 1.5  # per sample allowed: with 2^20 draws honest ones of two standard deviations stay open
 MOST = 3 << 19  # draws per look
 FEWER = 1 << 18  # samples elsewhere
 SUSPICIOUS = 1e-3  # a p-value that makes grids finer
 GROSS = 5.0  # times the tolerance: what no finer grid explains, its own error being taken off
+Size = tuple[int, int]
+Tables = Callable[[Size], Cells]
+Measure = Callable[[Plan, float], Fit]
 HEAVIEST = 1.02  # a mass that cells can stand
 
 
@@ -57,7 +65,7 @@ def claims(case: Case) -> Iterator[Claim]:
             yield _elsewhere(other, theta, cells)
 
 
-def _elsewhere(case: Case, theta: float, cells: Any) -> FitClaim:
+def _elsewhere(case: Case, theta: float, cells: Tables) -> FitClaim:
     """The same with fewer draws and a wider tolerance, at other azimuths and parameters."""
     tolerance = 2.0 * case.tolerated(TOLERANCE)
     measure = refined(case, theta, cells, tolerance, COARSE, FINE, FINEST)
@@ -70,14 +78,12 @@ def _elsewhere(case: Case, theta: float, cells: Any) -> FitClaim:
     )
 
 
-def tables(case: Case, theta: float) -> Any:
+def tables(case: Case, theta: float) -> Tables:
     """Cells by the size of their grid, each made once."""
     return functools.cache(functools.partial(Cells, case, theta))
 
 
-def refined(
-    case: Case, theta: float, cells: Any, tolerance: float, *sizes: tuple[int, int]
-) -> Any:
+def refined(case: Case, theta: float, cells: Tables, tolerance: float, *sizes: Size) -> Measure:
     """A measurement on finer grids for as long as draws look wrong on coarser ones."""
 
     def measure(plan: Plan, level: float) -> Fit:
@@ -112,7 +118,7 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     return found._replace(distance=max(0.0, found.distance - 2.0 * cells.error))
 
 
-def _hint(counts: Any, expected: Any) -> str:
+def _hint(counts: Array, expected: Array) -> str:
     """Where draws and pdf part: horizon, distance from the lobe's centre, azimuth."""
     cells = expected[0] * float(counts.sum())
     lost, due = counts[-1] / counts.sum(), expected[-1]
@@ -129,7 +135,7 @@ def _hint(counts: Any, expected: Any) -> str:
     return f"draws are {kind} than pdf: {inner:.3g} of it at the centre, {outer:.3g} at the end"
 
 
-def judged(counts: Any, probability: Any, level: float) -> Fit:
+def judged(counts: Array, probability: Array, level: float) -> Fit:
     """Distance, upper bound and p-value of counts; a last cell hardly expected is merged.
 
     chi2 of draws at distance d is noncentral with parameter N d^2: the upper bound is the distance

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.model import Property
 
 #: Tolerances are stated, not discovered (design: the verdict is the product).
 BOUND_TOLERANCE = 1e-5  # absolute, for "at most 1"
@@ -34,9 +35,8 @@ class Reference(NamedTuple):
 
     value: float
     error: float
-    kind: str
+    kind: str  # a Kind
     source: str
-
 
 
 class Exact(NamedTuple):
@@ -50,11 +50,11 @@ class Exact(NamedTuple):
     hint: str | None = None
 
 
-def worst_of(looks: Iterable[Exact]) -> Exact:
+def worst_of(values: Iterable[Exact]) -> Exact:
     """The largest of some values, of equal ones the last, with the points of all."""
-    looks = list(looks)
-    found = max(reversed(looks), key=lambda one: one.value)
-    return found._replace(points=sum(one.points for one in looks))
+    values = list(values)
+    found = max(reversed(values), key=lambda one: one.value)
+    return found._replace(points=sum(one.points for one in values))
 
 
 class Fit(NamedTuple):
@@ -75,11 +75,11 @@ class ExactClaim:
 
     quantity: str
     where: Mapping[str, Any]
-    bound: str  # "at most", "at least" or "equal"
+    bound: str  # a Bound
     expected: Reference
     tolerance: float  # absolute
     evaluate: Callable[[], Exact]
-    property: str = "reference"
+    property: str = Property.REFERENCE
     reproduce: str = ""
 
 
@@ -91,7 +91,7 @@ class FitClaim:
     where: Mapping[str, Any]
     tolerance: float
     measure: Callable[[Plan, float], Fit]  # plan and level
-    property: str = "pdf"
+    property: str = Property.PDF
     reproduce: str = ""
 
 
@@ -113,14 +113,15 @@ class MeanClaim:
 
     quantity: str
     where: Mapping[str, Any]
-    bound: str  # "at most" or "equal"
+    bound: str  # a Bound
     expected: Reference | None
     tolerance: float  # absolute
     measure: Callable[[Plan], list[Measurement]]
-    property: str = "reference"
+    property: str = Property.REFERENCE
     reproduce: str = ""
     unit: Mapping[str, float] = field(default_factory=dict)  # what the hint compares the value with
-    cause: str | None = None  # the hint where no number tells
+    diagnosis: Callable[[], str | None] | None = None  # the hint, asked for first
+    cause: Callable[[], str] | None = None  # the hint where no number tells
     #: asked, for a seed, where samples leave the claim open
     fallback: Callable[[int], Measurement] | None = None
 

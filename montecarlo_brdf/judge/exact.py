@@ -5,7 +5,7 @@ import math
 
 from montecarlo_brdf.judge.claim import Exact, ExactClaim
 from montecarlo_brdf.judge.finding import Finding
-from montecarlo_brdf.judge.looks import beyond
+from montecarlo_brdf.judge.looks import beyond, excess
 
 
 def exact_finding(claim: ExactClaim, known: str | None) -> Finding:
@@ -36,8 +36,7 @@ def _exact_verdict(claim: ExactClaim, found: Exact) -> str:
         return "inconclusive"
     if not math.isfinite(found.value):
         return "fail"
-    over = found.value - claim.expected.value
-    over = {"at most": over, "at least": -over, "equal": abs(over)}[claim.bound]
+    over = excess(claim.bound, found.value - claim.expected.value)
     slack = found.error + claim.expected.error
     if over + slack <= claim.tolerance:
         return "pass"

@@ -51,7 +51,7 @@ class Finding:
     quantity: str
     where: dict[str, Any]
     verdict: str
-    bound: str = "equal"
+    bound: str = Bound.EQUAL
     value: float = math.nan
     stderr: float = math.nan
     expected: float | None = None

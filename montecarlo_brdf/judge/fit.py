@@ -5,7 +5,7 @@ import math
 
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import FitClaim
-from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.finding import Bound, Finding
 from montecarlo_brdf.judge.looks import FRESH, looks
 
 
@@ -31,7 +31,7 @@ def fit_finding(claim: FitClaim, plan: Plan, known: str | None, level: float) ->
         claim.quantity,
         dict(claim.where),
         verdict,
-        "at most",
+        Bound.AT_MOST,
         fit.distance,
         (fit.upper - fit.distance) if math.isfinite(fit.upper) else math.nan,
         expected=0.0,

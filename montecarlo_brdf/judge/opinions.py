@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from montecarlo_brdf import student
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import MeanClaim, Reference
-from montecarlo_brdf.judge.looks import beyond
+from montecarlo_brdf.judge.claim import Kind, MeanClaim, Reference
+from montecarlo_brdf.judge.finding import Bound
+from montecarlo_brdf.judge.looks import beyond, excess
 from montecarlo_brdf.statistics import FLOOR
 
 #: how often a deviation of the size `resolves` may escape
@@ -43,7 +44,7 @@ def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> l
     if claim.expected is None and sum(o.verdict == "pass" for o in opinions) < 2:
         # one estimator alone agrees with itself
         opinions = changed(opinions, lambda o: o.verdict == "pass", "inconclusive")
-    if claim.bound == "at most" and best is not None:
+    if claim.bound == Bound.AT_MOST and best is not None:
         # a bound is decided by the most precise estimator; the others only speak up to refute
         quiet = ("unfit", "fail")
         opinions = changed(
@@ -66,10 +67,9 @@ def _verdict(
     if expected is None:
         if best is None or m is best:
             return "pass"
-        expected = Reference(best.estimate.mean, best.half_width(level), "", "")
+        expected = Reference(best.estimate.mean, best.half_width(level), Kind.SAME_F, "")
     slack = half + expected.error
-    over = value - expected.value
-    over = over if claim.bound == "at most" else abs(over)
+    over = excess(claim.bound, value - expected.value)
     return "pass" if over + slack <= claim.tolerance else beyond(over, slack, claim.tolerance)
 
 
@@ -102,8 +102,7 @@ def _hopeless(claim: MeanClaim, o: Opinion, most: int) -> bool:
         return getattr(o.measurement.unfit, "needs", 0.0) > most
     if expected is None or needed(claim, o, FASTEST) <= most:
         return False
-    over = e.mean - expected.value
-    over = over if claim.bound == "at most" else abs(over)
+    over = excess(claim.bound, e.mean - expected.value)
     in_the_end = o.half_width * math.sqrt(e.samples / most)
     return over + SURE * e.stderr <= claim.tolerance + expected.error + in_the_end
 

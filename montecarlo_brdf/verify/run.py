@@ -52,8 +52,9 @@ def run(
 
     fixed: parameters that worst-case searches leave alone; the others are searched over their
     range unless `p` is given. effort: the share, in (0, 1], of the pairs, places and nodes that
-    checks look at: a look in passing, which may miss what a whole one finds. deadline: stop in time and report what is left as inconclusive.
-    Other arguments as for `furnace`. An interruption returns what was found so far.
+    checks look at: a look in passing, which may miss what a whole one finds. deadline: stop in time
+    and report what is left as inconclusive. Other arguments as for `furnace`. An interruption
+    returns what was found so far.
     """
     chosen = _checks(names)
     sets = list(p) if isinstance(p, list) else [model.parameters() if p is None else p]
