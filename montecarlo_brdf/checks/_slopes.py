@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from montecarlo_brdf.cases.case import Parameters, pointwise
+from montecarlo_brdf.checks._truth import RETRO
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
@@ -69,7 +70,7 @@ def side_of(model: Model, one: Parameters, wo: Vec) -> float:
     import numpy as np
 
     both = pointwise(model, one).f(np.array(wo), np.array([wo, mirrored(wo)]))
-    return -1.0 if both[0] > 2.0 * both[1] else 1.0
+    return -1.0 if both[0] > RETRO * both[1] else 1.0
 
 
 def _measured(

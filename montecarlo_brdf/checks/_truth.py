@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 PILOT = 4096
 PROBES = 2048  # of these
 ROUNDING = 4.0 * 2.0**-52
+RESOLVED = 0.25  # of a tolerance: what the error of a quadrature may take of it to judge by
+QUOTABLE = 1e-5  # relative error from which a quadrature is an estimator beside those that sample
+RETRO = 2.0  # times f at the mirror direction, from which a lobe is sought at wo itself
 SHARPEST = 1e-5  # slope of the sharpest lobe that a model without a sampler may have
 
 
@@ -71,7 +74,7 @@ def same_f(
     None where the quadrature does not resolve f well enough to judge anything by.
     """
     value, error = quadrature(model, one, from_degrees(theta_deg, phi_deg))
-    if not error <= 0.25 * AGREEMENT_TOLERANCE * abs(value):
+    if not error <= RESOLVED * AGREEMENT_TOLERANCE * abs(value):
         return None
     return Reference(value, error, Kind.SAME_F, "lobe coordinates")
 
@@ -135,7 +138,7 @@ def coordinates(model: Model, one: Parameters, wo: Array) -> Coordinates:
     from montecarlo_brdf.estimate.quadrature import Coordinates
 
     mirror, f = wo * MIRROR, pointwise(model, one).f
-    if model.sample is None and f(wo, wo)[0] > 2.0 * f(wo, mirror)[0]:
+    if model.sample is None and f(wo, wo)[0] > RETRO * f(wo, mirror)[0]:
         return Coordinates(mirror, _probed_scale(model, one, wo, mirror))
     return Coordinates(wo, lobe_scale(model, one, wo))
 
@@ -146,7 +149,7 @@ def deterministic(
     """The same as an estimator beside those that sample; the seed changes nothing."""
     value, error = quadrature(model, one, fixed, reverse)
     e = Estimate(value, error, 0, (value, value), value * value, value)
-    unfit = None if error <= 1e-5 * abs(value) else f"the quadrature resolves only {error:.0e}"
+    unfit = None if error <= QUOTABLE * abs(value) else f"the quadrature resolves only {error:.0e}"
     return Measurement("quadrature", e, unfit, error)
 
 

@@ -22,6 +22,7 @@ import numpy as np
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws, _slopes
+from montecarlo_brdf.checks._truth import RESOLVED
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
@@ -89,7 +90,7 @@ def _jacobian(case: Case, theta: float) -> MeanClaim:
 def resolved(case: Case, theta: float) -> bool:
     """Whether the quadrature of pdf is good enough to judge by."""
     found = _draws.density_integral(case, theta)
-    return bool(found.error <= 0.25 * MASS_TOLERANCE)
+    return bool(found.error <= RESOLVED * MASS_TOLERANCE)
 
 
 def _claim(
@@ -150,7 +151,7 @@ def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     integral = _draws.density_integral(case, theta)
     rejected = _rejected(case, theta, plan)
     unfit = None
-    if not integral.error <= 0.25 * case.tolerated(MASS_TOLERANCE) + 1e-9:
+    if not integral.error <= RESOLVED * case.tolerated(MASS_TOLERANCE) + 1e-9:
         unfit = f"the quadrature of pdf resolves only {integral.error:.1e}"
     variance = rejected.second_moment - rejected.mean**2
     unseen = hidden_error(1.0, variance, rejected.samples)

@@ -108,7 +108,7 @@ def _expected(case: Case, theta: float, sky: Callable[[Any], float]) -> Referenc
 
     seen = _truth.probes(case.model, case.one, wo)
     found = integrate(integrand, _truth.coordinates(case.model, case.one, wo), probes=seen)
-    if not found.error <= 0.25 * TOLERANCE * abs(found.value):
+    if not found.error <= _truth.RESOLVED * TOLERANCE * abs(found.value):
         return None
     return Reference(found.value, found.error, Kind.SAME_F, "lobe coordinates")
 

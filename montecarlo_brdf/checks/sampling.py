@@ -35,12 +35,15 @@ PROPERTY = Property.PDF
 TOLERANCE = 0.015
 DRAWS = 1.5  # per sample allowed: with 2^20 draws honest ones of two standard deviations stay open
 MOST = 3 << 19  # draws per look
+WIDER = 2.0  # times the tolerance elsewhere
 FEWER = 1 << 18  # samples elsewhere
 SUSPICIOUS = 1e-3  # a p-value that makes grids finer
 GROSS = 5.0  # times the tolerance: what no finer grid explains, its own error being taken off
 Size = tuple[int, int]
 Tables = Callable[[Size], Cells]
 Measure = Callable[[Plan, float], Fit]
+EXPECTED = 10.0  # draws in the cell of rejected ones, below which chi2 is none
+SURPLUS = 40.0  # of them: so many above ten times what is expected have a probability < 1e-60
 HEAVIEST = 1.02  # a mass that cells can stand
 
 
@@ -67,7 +70,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 def _elsewhere(case: Case, theta: float, cells: Tables) -> FitClaim:
     """The same with fewer draws and a wider tolerance, at other azimuths and parameters."""
-    tolerance = 2.0 * case.tolerated(TOLERANCE)
+    tolerance = WIDER * case.tolerated(TOLERANCE)
     measure = refined(case, theta, cells, tolerance, COARSE, FINE, FINEST)
     return FitClaim(
         "distance of draws from pdf",
@@ -144,8 +147,8 @@ def judged(counts: Array, probability: Array, level: float) -> Fit:
     from scipy.special import chdtrc, chndtrinc
 
     n = float(counts.sum())
-    if probability[-1] * n < 10.0:
-        if counts[-1] > 40.0 + 10.0 * probability[-1] * n:
+    if probability[-1] * n < EXPECTED:
+        if counts[-1] > SURPLUS + 10.0 * probability[-1] * n:
             return Fit(math.sqrt(counts[-1] / n), math.inf, 0.0, int(n))
         counts, probability = counts[:-1], probability[:-1] / probability[:-1].sum()
     used = float(counts.sum())
