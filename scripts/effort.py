@@ -102,7 +102,8 @@ def main() -> None:
             if asked and meant(path) and path.stem not in rows:
                 rows[path.stem] = measured(path, efforts)
                 print(path.stem, rows[path.stem], flush=True)
-                RESULTS.write_text(json.dumps(rows, indent=1, sort_keys=True) + "\n")
+                lines = (f"{json.dumps(k)}: {json.dumps(rows[k])}" for k in sorted(rows))
+                RESULTS.write_text("{\n" + ",\n".join(lines) + "\n}\n")
 
 
 if __name__ == "__main__":

@@ -136,12 +136,12 @@ def worst_pair(
     return sets.parameters(k), (wo[k : k + 1], wi[k : k + 1])
 
 
-def asked(
+def subjects(
     case: Case, rng: np.random.Generator, deviation: Deviation, few: bool = False
 ) -> list[tuple[Parameters, *tuple[Pairs, ...]]]:
     """Parameter sets that a law of f is asked for: the case's own, some inside, those at the ends
     of the ranges; then those of the worst of many pairs, with that pair."""
-    sets = (*parameters.sets(case), *parameters.ends(case))
+    sets = (*parameters.sets(case), *parameters.extremes(case))
     found: list[tuple[Parameters, *tuple[Pairs, ...]]] = [(p,) for p in sets]
     return [*found, worst_pair(case, rng, deviation, few)] if case.free else found
 

@@ -78,7 +78,7 @@ def sets_inside(case: Case) -> Iterator[Parameters]:
         yield at(case, {n: u[i % 5] for i, n in enumerate(case.free)})
 
 
-def ends(case: Case) -> Iterator[Parameters]:
+def extremes(case: Case) -> Iterator[Parameters]:
     """Each free parameter exactly at either end of its range, and at 0 and 1 where these lie
     inside, the others as they are; then all at their low ends and all at their high ones."""
     ranges = {name: search_range(case.model, name) or (0.0, 0.0) for name in case.free}
@@ -100,10 +100,10 @@ def elsewhere(case: Case) -> Iterator[tuple[Case, float]]:
         yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
 
 
-def at_ends(case: Case) -> Iterator[tuple[Case, float]]:
+def at_extremes(case: Case) -> Iterator[tuple[Case, float]]:
     """The case with parameters at the ends of their ranges, where clamps and guards act."""
     theta, phi = PLACES[0]
-    for p in ends(case):
+    for p in extremes(case):
         yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
 
 

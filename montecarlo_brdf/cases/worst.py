@@ -42,21 +42,21 @@ class Stage(StrEnum):
     """How closely a place is looked at."""
 
     SCAN = "scan"
-    CLIMB = "climb"
+    ASCENT = "ascent"
     POLISH = "polish"
 
 
 #: nodes of a mean: draws of the model's own sampler, or (slopes, azimuths) where it has none
 NODES = {
     Stage.SCAN: (64, (16, 8)),
-    Stage.CLIMB: (1024, (32, 24)),
+    Stage.ASCENT: (1024, (32, 24)),
     Stage.POLISH: (1 << 16, (128, 128)),
 }
 FEWEST = 64  # nodes at any effort
 CANDIDATES = 2048  # places of the scan among which the best are chosen
 KEPT = 64  # places of the scan that are looked at again
 APART = 0.15  # between two of them, in one of the coordinates
-CLIMBING = 4  # of them, places from which steps are made
+STARTS = 4  # of them, places from which steps are made
 LINE = 128  # places along each line
 SWEEPS = 2
 STEPS = 0.12, 1e-4, 48  # first, last, and how many at most
@@ -166,10 +166,10 @@ def _nodes(space: Space, quantity: str, stage: Stage) -> Array:
 def worst(space: Space, value: Value) -> Spot:
     """Where `value` is largest, as far as scan, lines and steps can tell."""
     scanned = _scan(space)
-    kept = _best(scanned, value(scanned, Stage.SCAN), space.case.budget(KEPT, CLIMBING))
-    starts = _best(kept, value(kept, Stage.CLIMB), CLIMBING)
+    kept = _best(scanned, value(scanned, Stage.SCAN), space.case.budget(KEPT, STARTS))
+    starts = _best(kept, value(kept, Stage.ASCENT), STARTS)
     starts = np.concatenate([starts, [_lines(space, value, starts[0])]])
-    tops = _climb(value, starts)
+    tops = _ascend(value, starts)
     values = value(tops, Stage.POLISH)
     k = int(np.argmax(values))
     return Spot(tuple(map(float, tops[k])), float(values[k]))
@@ -206,11 +206,11 @@ def _lines(space: Space, value: Value, at: Array) -> Array:
     for axis in [*range(space.size)] * SWEEPS:
         places = np.tile(at, (LINE + 1, 1))
         places[1:, axis] = steps
-        at = places[int(np.argmax(value(places, Stage.CLIMB)))]
+        at = places[int(np.argmax(value(places, Stage.ASCENT)))]
     return at
 
 
-def _climb(value: Value, starts: Array) -> Array:
+def _ascend(value: Value, starts: Array) -> Array:
     """Steps from every start to its best neighbour, halved where none of them gets higher."""
     step, last, most = STEPS
     size = starts.shape[1]
@@ -218,7 +218,7 @@ def _climb(value: Value, starts: Array) -> Array:
     offsets[:, 0] /= 3.0  # along the angle lobes change fast
     for _ in range(most):
         around = np.clip(starts[:, None, :] + step * offsets[None, :, :], 0.0, 1.0)
-        values = value(around.reshape(-1, size), Stage.CLIMB).reshape(len(starts), -1)
+        values = value(around.reshape(-1, size), Stage.ASCENT).reshape(len(starts), -1)
         chosen = np.argmax(values, axis=1)
         starts = around[np.arange(len(starts)), chosen]
         step *= 1.0 if chosen.any() else 0.5

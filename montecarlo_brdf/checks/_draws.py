@@ -156,7 +156,7 @@ def _edges() -> Array:
     return np.array([(a, b, 0.5) for a in ends for b in ends])
 
 
-def lacking(case: Case, theta: float, plan: Plan) -> list[Measurement]:
+def deficit(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     """The mean of (1 - pdf J)+ over u, J = |dw/du0 x dw/du1|: the draws that pdf does not account
     for.
 
@@ -196,18 +196,18 @@ def _ratio(case: Case, theta: float, u: Array) -> tuple[Array, Array, Array]:
     return np.where(usable, density * area, np.nan), area, w
 
 
-def _ratio_seen(case: Case, theta: float) -> tuple[Array, Array, Array]:
+def _finite_ratio(case: Case, theta: float) -> tuple[Array, Array, Array]:
     """`_ratio` of some draws, where it is a number."""
     found = _ratio(case, theta, _inner(case.random(NAME, theta), POINTS))
     ratio, area, w = (part[np.isfinite(found[0])] for part in found)
     return ratio, area, w
 
 
-def ratio_named(case: Case, theta: float) -> str | None:
+def ratio_cause(case: Case, theta: float) -> str | None:
     """What pdf times Jacobian is: by the directions that pdf should have been asked for, or by its
     shape, where that has a name."""
     pdf, wo = pointwise(case.model, case.one).pdf, np.array(case.wo(theta))
-    ratio, area, w = _ratio_seen(case, theta)
+    ratio, area, w = _finite_ratio(case, theta)
     many = np.broadcast_to(wo, w.shape)
     meant = moved_named(lambda a, b: pdf(a, b) * area, many, w)
     if meant:
@@ -216,11 +216,11 @@ def ratio_named(case: Case, theta: float) -> str | None:
     return f"pdf / density of the draws = {named}" if named else None
 
 
-def ratio_told(case: Case, theta: float) -> str:
+def ratio_hint(case: Case, theta: float) -> str:
     """The same, or how it is spread and who is wider."""
-    if named := ratio_named(case, theta):
+    if named := ratio_cause(case, theta):
         return named
-    ratio, area, w = _ratio_seen(case, theta)
+    ratio, area, w = _finite_ratio(case, theta)
     low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
     said = f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
     return f"{said}{azimuth_named(ratio, w) or wider_named(ratio, ratio / area)}"

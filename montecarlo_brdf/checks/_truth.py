@@ -125,7 +125,7 @@ def own_probes(model: Model, one: Parameters, fixed: Sequence[float] | Array) ->
 
     if not (model.sample and model.pdf):
         return ()
-    drawn = _drawn(model, one, tuple(map(float, fixed)))[1]
+    drawn = _pilot_draws(model, one, tuple(map(float, fixed)))[1]
     density = pointwise(model, one).pdf(np.array(fixed), drawn)
     unit = np.abs(np.sum(drawn * drawn, axis=1) - 1.0) < 1e-3
     known = np.isfinite(density) & (density > 0.0) & unit
@@ -159,11 +159,11 @@ def lobe_scale(model: Model, one: Parameters, wo: Array) -> float:
 
     if model.sample is None:
         return _probed_scale(model, one, wo, wo)
-    return scale_of(wo, _drawn(model, one, tuple(map(float, wo)))[0])
+    return scale_of(wo, _pilot_draws(model, one, tuple(map(float, wo)))[0])
 
 
 @functools.lru_cache(maxsize=8)
-def _drawn(model: Model, one: Parameters, wo: Vec) -> tuple[Array, Array]:
+def _pilot_draws(model: Model, one: Parameters, wo: Vec) -> tuple[Array, Array]:
     """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first
     PROBES."""
     import numpy as np

@@ -83,7 +83,7 @@ def _undrawn(space: worst.Space, quantity: str, spot: worst.Spot) -> worst.Spot:
     """A worse place by a quadrature of f, with parameters at the ends of their ranges and some
     inside: a search by the model's own sampler sees only what that draws."""
     case = space.case
-    sets = (*parameters.ends(case), *parameters.sets(case)) if case.model.sample else ()
+    sets = (*parameters.extremes(case), *parameters.sets(case)) if case.model.sample else ()
     for p, theta in itertools.product(sets, UNDRAWN):
         position = parameters.position(case, p).values()
         at = (theta / worst.LAST, *(0.0,) * space.turning, *position)
@@ -99,7 +99,7 @@ def _cause(space: worst.Space, spot: worst.Spot, value: worst.Value) -> str:
     if theta > 85.0 and spot.value > 1.5:
         return "grows towards grazing: look at masking and at cosines in denominators"
     own = np.array([(*spot.at[: 1 + space.turning], *space.own())])
-    if value(own, worst.Stage.CLIMB)[0] <= 1.0 + BOUND_TOLERANCE < spot.value:
+    if value(own, worst.Stage.ASCENT)[0] <= 1.0 + BOUND_TOLERANCE < spot.value:
         return parameters.unlike(case, space.parameters(spot.at))
     turned = f", azimuth {space.direction(spot.at)[1]:.0f}" if space.turning else ""
     return f"most at {theta:.1f} degrees{turned}: compare the normalisation, weights that add up"

@@ -62,10 +62,10 @@ def _worst(case: Case, other: Model) -> Exact:
         return _relative(ours, scattered.pair_values(other, wo, wi, same))
 
     few = other.prepare is not None
-    asked = directions.asked(case, case.random(NAME, "all"), apart, few)
+    found = directions.subjects(case, case.random(NAME, "all"), apart, few)
     return worst_of(
         difference(case, p, other, shared(other, p), case.random(NAME, k), *more)
-        for k, (p, *more) in enumerate(asked)
+        for k, (p, *more) in enumerate(found)
     )
 
 

@@ -41,10 +41,12 @@ def claims(case: Case) -> Iterator[Claim]:
     for theta in case.theta_o_deg:
         yield from _at_angle(case, theta)
     if case.model.albedo and _albedo.searchable(case):
-        from montecarlo_brdf.checks import _declared  # imports numpy, which a warm run spares
+        from montecarlo_brdf.checks import _deviation  # imports numpy
 
         known = case.model.albedo
-        yield _declared.inside(case, "A elsewhere", lambda mu, p: float(known(mu, p)), "albedo()")
+        yield _deviation.farthest(
+            case, "A elsewhere", lambda mu, p: float(known(mu, p)), "albedo()"
+        )
     for k, one in enumerate(case.sets if case.model.terms else []):
         yield _weights(case, one, {"channel": k} if len(case.sets) > 1 else {})
 

@@ -45,7 +45,7 @@ def claims(case: Case) -> Iterator[Claim]:
 
 
 def _worst(case: Case) -> Exact:
-    sets = enumerate((*parameters.sets(case, 2), *parameters.ends(case)))
+    sets = enumerate((*parameters.sets(case, 2), *parameters.extremes(case)))
     return worst_of(_worst_turned(case, p, case.random(NAME, k)) for k, p in sets)
 
 

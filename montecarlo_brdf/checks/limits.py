@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case, Parameters
-from montecarlo_brdf.checks import _albedo, _declared, equality
+from montecarlo_brdf.checks import _albedo, _deviation, equality
 from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
     Claim,
@@ -43,7 +43,7 @@ def claims(case: Case) -> Iterator[Claim]:
     for p in lossless:
         yield from _lossless_claims(case, p)
     if case.model.lossless is True and _albedo.searchable(case):
-        yield _declared.inside(case, "A of a lossless surface", lambda mu, p: 1.0, "lossless")
+        yield _deviation.farthest(case, "A of a lossless surface", lambda mu, p: 1.0, "lossless")
     for changes, spec in declared:
         yield _limit(case, dict(changes), spec)
 
@@ -87,7 +87,7 @@ def _limit(case: Case, changes: dict[str, float], spec: str) -> Claim:
 def _worst(case: Case, spec: str) -> Exact:
     """The largest difference from the other model, also where other parameters differ."""
     other = load(spec)
-    sets = enumerate((*parameters.sets(case), *parameters.ends(case)))
+    sets = enumerate((*parameters.sets(case), *parameters.extremes(case)))
     return worst_of(
         equality.difference(case, p, other, equality.shared(other, p), case.random(NAME, spec, k))
         for k, p in sets

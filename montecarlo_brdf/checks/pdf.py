@@ -54,7 +54,11 @@ def claims(case: Case) -> Iterator[Claim]:
         if case.model.pdf is not None:
             yield _normalisation(case, theta)
             yield from _pointwise(case, theta)
-    for other, theta in (*parameters.elsewhere(case), (case, GRAZING), *parameters.at_ends(case)):
+    for other, theta in (
+        *parameters.elsewhere(case),
+        (case, GRAZING),
+        *parameters.at_extremes(case),
+    ):
         yield _claim(other, theta, "drawn directions at fault", 0.0, _draws.faults)
         if case.model.pdf is not None:
             if resolved(other, theta):
@@ -81,9 +85,9 @@ def _jacobian(case: Case, theta: float) -> MeanClaim:
         Bound.AT_MOST,
         Reference(0.0, 0.0, Kind.LAW, "sampler and density belong together"),
         JACOBIAN_TOLERANCE,
-        functools.partial(_draws.lacking, case, theta),
+        functools.partial(_draws.deficit, case, theta),
         property=PROPERTY,
-        diagnosis=functools.partial(_draws.ratio_told, case, theta),
+        diagnosis=functools.partial(_draws.ratio_hint, case, theta),
     )
 
 
@@ -126,7 +130,7 @@ def _normalisation(case: Case, theta: float) -> MeanClaim:
 
 
 def _named(case: Case, theta: float) -> str | None:
-    return None if _draws.chooses(case, theta) else _draws.ratio_named(case, theta)
+    return None if _draws.chooses(case, theta) else _draws.ratio_cause(case, theta)
 
 
 def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:

@@ -65,8 +65,8 @@ def _lowest(case: Case) -> Deviation:
 
 
 def _values(case: Case) -> Iterator[tuple[Parameters, Array, Array, Array]]:
-    asked = directions.asked(case, case.random(NAME, "all"), _lowest(case))
-    for k, (p, *more) in enumerate(asked):
+    found = directions.subjects(case, case.random(NAME, "all"), _lowest(case))
+    for k, (p, *more) in enumerate(found):
         wo, wi = directions.all_pairs(case, p, case.random(NAME, k), *more)
         yield p, wo, wi, pointwise(case.model, p).f(wo, wi)
 

@@ -61,7 +61,7 @@ def claims(case: Case) -> Iterator[Claim]:
             property=PROPERTY,
         )
     # one lobe of several can be wrong where only all of them together tell
-    ends = parameters.at_ends(case) if _draws.chooses(case, case.theta_o_deg[0]) else ()
+    ends = parameters.at_extremes(case) if _draws.chooses(case, case.theta_o_deg[0]) else ()
     for other, theta in (*parameters.elsewhere(case), *ends):
         cells = tables(other, theta)
         if 0.0 < cells(COARSE).tables[2] < HEAVIEST:  # else see `pdf`

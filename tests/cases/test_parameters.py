@@ -14,5 +14,5 @@ CORNER = Path(__file__).parents[1] / "mutants" / "brushed_in_one_corner.py"
 def test_all_parameters_are_also_asked_at_their_ends_together() -> None:
     model = mb.load(str(CORNER))
     case = Case(model, model.parameters(), (45.0,), free=tuple(model.domain))
-    *_, lowest, highest = parameters.ends(case)
+    *_, lowest, highest = parameters.extremes(case)
     assert tuple(lowest) == (0.0, 0.0) and tuple(highest) == (1.0, 1.0)

@@ -24,8 +24,8 @@ def case(name: str) -> Case:
     return Case(model, model.parameters(), (45.0,), free=tuple(model.domain))
 
 
-def lacking(case: Case, theta: float = 45.0, seed: int = 0) -> Estimate:
-    return _draws.lacking(case, theta, PLAN._replace(seed=seed))[0].estimate
+def deficit(case: Case, theta: float = 45.0, seed: int = 0) -> Estimate:
+    return _draws.deficit(case, theta, PLAN._replace(seed=seed))[0].estimate
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -36,29 +36,29 @@ def test_rare_lobes_seams_and_directions_drawn_twice_are_no_fault_of_a_pdf(
     name: str, seed: int
 ) -> None:
     """Decided at the first look, with a fifth of the tolerance to spare."""
-    e = lacking(case(f"honest/{name}"), seed=seed)
+    e = deficit(case(f"honest/{name}"), seed=seed)
     assert e.mean < 1e-4 and e.mean + e.half_width(LEVEL / 2.0) < 0.8 * JACOBIAN_TOLERANCE
 
 
 def test_a_sampler_that_clamps_is_wrong_at_an_end_only() -> None:
     mine = case("mutants/sampler_clamps_alpha")
-    assert lacking(mine).mean < 1e-6
-    low, *_, high = parameters.at_ends(mine)
-    assert lacking(*low).mean > 0.1
-    assert lacking(*high).mean < 1e-6
+    assert deficit(mine).mean < 1e-6
+    low, *_, high = parameters.at_extremes(mine)
+    assert deficit(*low).mean > 0.1
+    assert deficit(*high).mean < 1e-6
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_it_is_the_distance_in_total_variation(seed: int) -> None:
     """Draws in 98 % of the azimuth lack 2 %; u^1.02 for u is off by 0.02 exp(-1) to first order."""
-    e = lacking(case("mutants/azimuth_98_percent"), seed=seed)
+    e = deficit(case("mutants/azimuth_98_percent"), seed=seed)
     assert abs(e.mean - 0.02) < 1e-6
-    e = lacking(case("mutants/warp_2_percent_off"), seed=seed)
+    e = deficit(case("mutants/warp_2_percent_off"), seed=seed)
     assert abs(e.mean - 0.02 / 2.718281828) < e.half_width(1e-6) + 2e-4  # the second order
 
 
 def test_one_pair_of_numbers_or_several_no_share_is_negative() -> None:
-    wrong = lacking(case("mutants/uniform_pdf_cosine_sampler"))
+    wrong = deficit(case("mutants/uniform_pdf_cosine_sampler"))
     assert wrong.mean == pytest.approx(0.25, abs=0.01) and min(wrong.replicates) >= 0.0
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 SMALLEST = 0.05  # albedo below which agreement is absolute
 
 
-def inside(
+def farthest(
     case: Case, quantity: str, known: Callable[[float, Parameters], float], source: str
 ) -> Claim:
     """A equals `known(cos_theta_o, p)` where it is farthest from it."""
