@@ -4,6 +4,7 @@ A quadrature takes a millisecond, but numpy, which it needs, a quarter of a warm
 values of a model lie in a file that is named by the hash of everything they depend on, so that
 none outlives an edit of the references, another release of numpy or another processor.
 """
+
 from __future__ import annotations
 
 import functools
@@ -13,6 +14,7 @@ from pathlib import Path
 
 from montecarlo_brdf import references
 from montecarlo_brdf.compile import cache, native
+from montecarlo_brdf.judge.claim import Kind
 from montecarlo_brdf.references import Truth
 
 
@@ -26,7 +28,7 @@ def true_albedo(name: str, mu_o: float, /, **parameters: float | str) -> Truth |
     values = _values(_file(name))
     if question not in values:
         truth = references.albedo(name, mu_o, **parameters)
-        if truth is None or truth.kind == "closed form":
+        if truth is None or truth.kind == Kind.CLOSED_FORM:
             return truth
         values[question] = Truth(float(truth.value), float(truth.error), *truth[2:])
         cache.note(_file(name), json.dumps([question, *values[question]]))

@@ -4,7 +4,7 @@
     python scripts/detection_matrix.py --time [--minutes 3]   seconds of a warm `brdf-check run`
 
 Resumable: what scripts/results/detection_matrix.json holds of an unchanged mutant and an unchanged
-check (with what it imports of `checks` and `report`) is not run again. Writes
+check (with what it imports of `checks`, `cases` and `judge`) is not run again. Writes
 docs/detection_matrix.md. A mutant's docstring says which check is meant for it ("caught by:") and
 what was done to it ("cause:"); tests/mutants/causes.toml says which words of a hint name a cause.
 """
@@ -35,6 +35,7 @@ RESULTS = ROOT / "scripts" / "results" / "detection_matrix.json"
 TABLE = ROOT / "docs" / "detection_matrix.md"
 MARKS = {"fail": "**x**", "inconclusive": "?", "pass": "·", "skipped": " "}
 CAUSES = tomllib.loads((MUTANTS / "causes.toml").read_text(encoding="utf-8"))
+FOLDERS = ("checks", "cases", "judge")
 LIMIT = 10.0  # seconds that a mutant may take
 
 
@@ -45,23 +46,28 @@ def digest(*texts: bytes) -> str:
 
 @functools.cache
 def reached(path: Path) -> frozenset[Path]:
-    """The files of `checks` and `report` that a file of the package imports, itself included."""
-    found = {path}
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        module = getattr(node, "module", None) or ""
-        parts = module.split(".")
-        if isinstance(node, ast.ImportFrom) and parts[1:2] in (["checks"], ["report"]):
-            names = [[*parts[1:], alias.name] for alias in node.names] + [parts[1:]]
-            files = {PACKAGE.joinpath(*n).with_suffix(".py") for n in names}
-            for file in files - found:
-                found |= reached(file) if file.is_file() else set()
+    """The files of FOLDERS that a file of the package imports, itself included."""
+    found, waiting = set(), {path}
+    while waiting:
+        found.add(file := waiting.pop())
+        waiting |= set(imported(file)) - found
     return frozenset(found)
+
+
+def imported(path: Path) -> Iterator[Path]:
+    """Files of FOLDERS that a file names in an import."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        parts = (getattr(node, "module", None) or "").split(".")[1:]
+        if isinstance(node, ast.ImportFrom) and parts[:1] and parts[0] in FOLDERS:
+            names = [parts, *([*parts, alias.name] for alias in node.names)]
+            files = (PACKAGE.joinpath(*n).with_suffix(".py") for n in names)
+            yield from (f for f in files if f.is_file())
 
 
 @functools.cache
 def version(check: str) -> str:
     """Changes with a check and with how it is judged."""
-    files = reached(PACKAGE / "checks" / f"{check}.py") | reached(PACKAGE / "report" / "judge.py")
+    files = reached(PACKAGE / "checks" / f"{check}.py") | reached(PACKAGE / "judge" / "decide.py")
     return digest(*(f.read_bytes() for f in sorted(files)))
 
 

@@ -34,7 +34,7 @@ from montecarlo_brdf.verify.run import SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "power.json"
 THETA = 45.0
-MASS, JACOBIAN, ALBEDO = "int pdf + rejected", "|pdf Jacobian - 1|", "A"
+MASS, JACOBIAN, ALBEDO = "int pdf + rejected", "(1 - pdf Jacobian)+", "A"
 
 
 def pdf_one_percent_large(wo: Any, wi: Any, p: Any) -> float:

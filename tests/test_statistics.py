@@ -120,3 +120,12 @@ def test_streams_depend_on_content_only() -> None:
     assert len({*forwards, *(stream(8, *n) for n in names)}) == 10
     assert all(0 <= key < 1 << 64 for key in forwards)
     assert stream(0, "a", "b") != stream(0, "ab") != stream(0, "a\x1fb", "")
+
+
+@pytest.mark.parametrize("value", [1e152, 1e160, 1e-200])
+def test_squares_beyond_the_range_of_numbers_are_no_crash(value: float) -> None:
+    means = [value * (1.0 + 0.1 * k) for k in range(16)]
+    e = estimate([Moments(64.0, m, 64.0 * (0.1 * m) * m, 2.0 * m) for m in means])
+    assert e.mean == pytest.approx(1.75 * value)
+    assert e.effective_samples() >= 0.0 or math.isnan(e.effective_samples())
+    assert estimate([Moments(64.0, value, -math.inf, 1.0), Moments(64.0, value, math.inf, 1.0)])

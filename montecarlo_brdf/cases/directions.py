@@ -1,15 +1,29 @@
 """Pairs of directions where BRDFs go wrong: edges first, then everywhere, then along the lobe."""
+
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from montecarlo_brdf.cases import parameters
-from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.cases.case import Case, Parameters, pointwise
+from montecarlo_brdf.estimate import scattered
 
-Array = Any
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+    Flags = NDArray[np.bool_]
+    Pairs = tuple[Array, Array]  # wo and wi, (n, 3) each
+
+    #: f or pdf of (n, 3) wo and wi
+    Function = Callable[[Array, Array], Array]
+    #: how far from right each of n pairs with parameters of its own is
+    Deviation = Callable[[Array, Array, scattered.Rows], Array]
+
 LAST = math.nextafter(0.5 * math.pi, 0.0)  # 90 degrees less an ulp: cos = 2.8e-16
 #: polar angles in radians: normal, next to it, ordinary, grazing, the last double before 90 degrees
 EDGES = (
@@ -34,14 +48,14 @@ SUSPECTS = 256  # pairs at a time that rounding may explain
 HIGHEST_COSINE = 1e-6  # ordinary random directions keep clear of the horizon by this
 
 
-def vectors(theta: Array, phi: Array) -> Array:
+def vectors(theta: ArrayLike, phi: ArrayLike) -> Array:
     """(n, 3) unit vectors; near 90 degrees the cosine keeps its relative accuracy."""
     theta, phi = np.broadcast_arrays(np.asarray(theta, dtype=float), np.asarray(phi, dtype=float))
     s = np.sin(theta)
     return np.stack([s * np.cos(phi), s * np.sin(phi), np.cos(theta)], axis=-1).reshape(-1, 3)
 
 
-def edge_pairs() -> tuple[Array, Array]:
+def edge_pairs() -> Pairs:
     """Every edge angle against every other at every azimuth; wi = wo, wi = mirror, wi . wo = 0;
     and every one where x is exactly 0, which no azimuth makes it."""
     to, ti, phi = (g.ravel() for g in np.meshgrid(EDGES, EDGES, AZIMUTHS, indexing="ij"))
@@ -58,7 +72,7 @@ def edge_pairs() -> tuple[Array, Array]:
     )
 
 
-def random_pairs(rng: Any, n: int = RANDOM) -> tuple[Array, Array]:
+def random_pairs(rng: np.random.Generator, n: int) -> Pairs:
     """Uniform directions, half of them with cosines spread evenly over their logarithm."""
 
     def some() -> Array:
@@ -72,7 +86,7 @@ def random_pairs(rng: Any, n: int = RANDOM) -> tuple[Array, Array]:
     return some(), some()
 
 
-def special_pairs(rng: Any, n: int = SPECIAL) -> tuple[Array, Array]:
+def special_pairs(rng: np.random.Generator, n: int) -> Pairs:
     """wi = wo and wi = mirror of wo at random directions, exactly and an ulp or two beside."""
     wo, _ = random_pairs(rng, n)
     partners = [wo, wo * MIRROR]
@@ -80,7 +94,7 @@ def special_pairs(rng: Any, n: int = SPECIAL) -> tuple[Array, Array]:
     return np.concatenate([wo] * len(partners)), np.concatenate(partners)
 
 
-def lobe_pairs(case: Case, p: Any, rng: Any, n: int = LOBE) -> tuple[Array, Array]:
+def lobe_pairs(case: Case, p: Parameters, rng: np.random.Generator, n: int) -> Pairs:
     """Random wo with wi drawn by the model's own sampler: pairs that see a lobe of any width."""
     if case.model.sample is None:
         wo, _ = random_pairs(rng, n)
@@ -94,28 +108,45 @@ def lobe_pairs(case: Case, p: Any, rng: Any, n: int = LOBE) -> tuple[Array, Arra
     return wo[above], wi[above]
 
 
-def all_pairs(case: Case, p: Any, rng: Any, *more: tuple[Array, Array]) -> tuple[Array, Array]:
+def all_pairs(case: Case, p: Parameters, rng: np.random.Generator, *more: Pairs) -> Pairs:
     """Edges, random pairs, special pairs, pairs along the lobe, and `more`."""
-    kinds = [edge_pairs(), random_pairs(rng), special_pairs(rng), lobe_pairs(case, p, rng), *more]
+    kinds = [
+        edge_pairs(),
+        random_pairs(rng, case.budget(RANDOM)),
+        special_pairs(rng, case.budget(SPECIAL)),
+        lobe_pairs(case, p, rng, case.budget(LOBE)),
+        *more,
+    ]
     return np.concatenate([k[0] for k in kinds]), np.concatenate([k[1] for k in kinds])
 
 
 def worst_pair(
-    case: Case, rng: Any, deviation: Any, few: bool = False
-) -> tuple[Any, tuple[Array, Array]]:
+    case: Case, rng: np.random.Generator, deviation: Deviation, few: bool = False
+) -> tuple[Parameters, Pairs]:
     """(parameters, pair) of the worst of many random pairs, each with free parameters of its own,
     now and then at the ends of their ranges: what goes wrong in a corner of directions and
     parameters together. deviation(wo, wi, parameter sets); few: they are costly to prepare."""
-    wo, wi = random_pairs(rng, SCATTERED)
-    t = np.clip(1.1 * rng.random((SCATTERED, len(case.free))) - 0.05, 0.0, 1.0)
+    n = case.budget(SCATTERED)
+    wo, wi = random_pairs(rng, n)
+    t = np.clip(1.1 * rng.random((n, len(case.free))) - 0.05, 0.0, 1.0)
     if few or case.model.prepare:
-        t = t[np.arange(SCATTERED) % PREPARED]
+        t = t[np.arange(n) % PREPARED]
     sets = parameters.rows(case, t)
     k = int(np.argmax(deviation(wo, wi, sets)))
     return sets.parameters(k), (wo[k : k + 1], wi[k : k + 1])
 
 
-def rounding(f: Any, wo: Array, wi: Array, rng: Any) -> Array:
+def subjects(
+    case: Case, rng: np.random.Generator, deviation: Deviation, few: bool = False
+) -> list[tuple[Parameters, *tuple[Pairs, ...]]]:
+    """Parameter sets that a law of f is asked for: the case's own, some inside, those at the ends
+    of the ranges; then those of the worst of many pairs, with that pair."""
+    sets = (*parameters.sets(case), *parameters.extremes(case))
+    found: list[tuple[Parameters, *tuple[Pairs, ...]]] = [(p,) for p in sets]
+    return [*found, worst_pair(case, rng, deviation, few)] if case.free else found
+
+
+def rounding(f: Function, wo: Array, wi: Array, rng: np.random.Generator) -> Array:
     """How much f changes when the directions move by an ulp or two: where that is as much as what
     was found, nothing was found."""
     before, noise = f(wo, wi), np.zeros(len(wo))
@@ -125,11 +156,11 @@ def rounding(f: Any, wo: Array, wi: Array, rng: Any) -> Array:
     return noise
 
 
-def _ulps(rng: Any, w: Array) -> Array:
-    return rng.integers(-2, 3, w.shape)
+def _ulps(rng: np.random.Generator, w: Array) -> Array:
+    return rng.integers(-2, 3, w.shape).astype(float)
 
 
-def around(f: Any, wo: Array, wi: Array) -> Array:
+def around(f: Function, wo: Array, wi: Array) -> Array:
     """The largest |f| between the polar angles of each pair, at any azimuth."""
     found, sine = np.zeros(len(wo)), np.hypot(wi[:, 0], wi[:, 1])
     start = np.arctan2(wo[:, 1], wo[:, 0])
@@ -141,7 +172,13 @@ def around(f: Any, wo: Array, wi: Array) -> Array:
 
 
 def unexplained(
-    relative: Array, difference: Array, tolerance: float, f: Any, wo: Array, wi: Array, rng: Any
+    relative: Array,
+    difference: Array,
+    tolerance: float,
+    f: Function,
+    wo: Array,
+    wi: Array,
+    rng: np.random.Generator,
 ) -> Array:
     """`relative`, with 0 where rounding of the directions explains the difference (near grazing a
     dot product such as wo . h may have no digit left), or where f itself is but a rest of rounding.

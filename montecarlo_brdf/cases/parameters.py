@@ -1,20 +1,26 @@
 """Parameter sets to look at: the one asked about, and others from the interior of the ranges."""
+
 from __future__ import annotations
 
 import itertools
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from montecarlo_brdf.cases.case import Case, search_range
+from montecarlo_brdf.cases.case import Case, Parameters, search_range
 from montecarlo_brdf.estimate import scattered
 from montecarlo_brdf.sampling.points import sobol
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array
+
+T = TypeVar("T", float, "Array")
 
 INTERIORS = 8
 WIDE = 50.0  # a range whose ends differ by more than this factor is searched by its logarithm
 
 
-def between(low: float, high: float, t: Any) -> Any:
+def between(low: float, high: float, t: T) -> T:
     """A value at t in [0, 1] of a range, by its logarithm where the range is wide; or many."""
     if low > 0.0 and high > WIDE * low:
         return low * (high / low) ** t
@@ -35,14 +41,14 @@ def share(low: float, high: float, value: float) -> float:
     return (value - low) / (high - low)
 
 
-def at(case: Case, t: dict[str, float]) -> Any:
+def at(case: Case, t: dict[str, float]) -> Parameters:
     """The case's parameter set with the free parameters at positions t in [0, 1]."""
     ranges = {n: search_range(case.model, n) for n in case.free}
     changed = {n: float(between(*ends, t[n])) for n, ends in ranges.items() if ends}
     return case.one._replace(**changed)
 
 
-def rows(case: Case, t: Any) -> scattered.Rows:
+def rows(case: Case, t: Array) -> scattered.Rows:
     """Parameter sets as `at` makes them, for (n, free parameters) positions."""
     ranges = [search_range(case.model, n) for n in case.free]
     columns = {
@@ -53,26 +59,26 @@ def rows(case: Case, t: Any) -> scattered.Rows:
     return scattered.rows(case.model, columns, case.one, len(t))
 
 
-def position(case: Case, p: Any) -> dict[str, float]:
+def position(case: Case, p: Parameters) -> dict[str, float]:
     """Where a parameter set lies in the ranges: the inverse of `at`."""
     ranges = {n: search_range(case.model, n) or (0.0, 1.0) for n in case.free}
     return {n: share(*ends, getattr(p, n)) for n, ends in ranges.items()}
 
 
-def sets(case: Case, count: int = INTERIORS) -> Iterator[Any]:
+def sets(case: Case, count: int = INTERIORS) -> Iterator[Parameters]:
     """The channels asked about, then points of the interior (a Sobol set, the same every time)."""
     yield from case.sets
-    yield from itertools.islice(sets_inside(case), count)
+    yield from itertools.islice(sets_inside(case), case.budget(count))
 
 
-def sets_inside(case: Case) -> Iterator[Any]:
+def sets_inside(case: Case) -> Iterator[Parameters]:
     """Points of the interior without end; none if no parameter is free."""
     for k in itertools.count() if case.free else ():
         u = sobol(case.seed + 0x5EED, k)
         yield at(case, {n: u[i % 5] for i, n in enumerate(case.free)})
 
 
-def ends(case: Case) -> Iterator[Any]:
+def extremes(case: Case) -> Iterator[Parameters]:
     """Each free parameter exactly at either end of its range, and at 0 and 1 where these lie
     inside, the others as they are; then all at their low ends and all at their high ones."""
     ranges = {name: search_range(case.model, name) or (0.0, 0.0) for name in case.free}
@@ -89,15 +95,15 @@ PLACES = ((45.0, 130.0), (70.0, 250.0), (30.0, 20.0), (55.0, 200.0), (75.0, 310.
 
 def elsewhere(case: Case) -> Iterator[tuple[Case, float]]:
     """The case turned, then other parameters at other angles: mistakes that defaults hide."""
-    sets = [case.one, *itertools.islice(sets_inside(case), len(PLACES) - 1)]
+    sets = [case.one, *itertools.islice(sets_inside(case), case.budget(len(PLACES) - 1))]
     for p, (theta, phi) in zip(sets, PLACES, strict=False):
         yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
 
 
-def at_ends(case: Case) -> Iterator[tuple[Case, float]]:
+def at_extremes(case: Case) -> Iterator[tuple[Case, float]]:
     """The case with parameters at the ends of their ranges, where clamps and guards act."""
     theta, phi = PLACES[0]
-    for p in ends(case):
+    for p in extremes(case):
         yield case._replace(p=p, phi_o_deg=case.phi_o_deg + phi), theta
 
 
@@ -106,12 +112,12 @@ def where(case: Case, theta_deg: float) -> dict[str, Any]:
     return {**case.where(theta_o_deg=theta_deg), **changed(case, case.one)}
 
 
-def changed(case: Case, p: Any) -> dict[str, float]:
+def changed(case: Case, p: Parameters) -> dict[str, float]:
     """The free parameters of a set by name, for a finding's place."""
     return {case.model.labels.get(n, n): float(f"{getattr(p, n):.12g}") for n in case.free}
 
 
-def unlike(case: Case, p: Any) -> str:
+def unlike(case: Case, p: Parameters) -> str:
     """In words, in what a parameter set differs from the one asked about; nothing if in nothing."""
     usual = changed(case, case.one)
     differing = [f"{k} = {v:.4g}" for k, v in changed(case, p).items() if v != usual[k]]

@@ -7,16 +7,18 @@ many nodes to tell which of them is the worst. All places use the same nodes: di
 them are not noise.
 It cannot see: a bump that holds less than about one in ten thousand of the places.
 """
+
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from enum import StrEnum
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from montecarlo_brdf.cases import parameters
-from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.cases.case import Case, Parameters
 from montecarlo_brdf.cases.directions import MIRROR, vectors
 from montecarlo_brdf.estimate import scattered
 from montecarlo_brdf.estimate.quadrature import grid
@@ -27,26 +29,45 @@ from montecarlo_brdf.sampling.spread import net, spread
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.vectors import Vec, from_degrees
 
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array
+
 ANGLES = (0.0, 30.0, 50.0, 65.0, 76.0, 84.0, 88.0, 89.9)
 LAST = 89.9  # nearer to the horizon a textbook GGX in rounded arithmetic is too noisy to search
 SHARP = 2.0  # times as much as elsewhere makes a lobe
 #: places of the scan by the number of coordinates, and sets of parameters that are prepared
 PLACES = (512, 4096, 16384)
 PREPARED = 48
+
+
+class Stage(StrEnum):
+    """How closely a place is looked at."""
+
+    SCAN = "scan"
+    ASCENT = "ascent"
+    POLISH = "polish"
+
+
 #: nodes of a mean: draws of the model's own sampler, or (slopes, azimuths) where it has none
-NODES = {"scan": (64, (16, 8)), "climb": (1024, (32, 24)), "polish": (1 << 16, (128, 128))}
+NODES = {
+    Stage.SCAN: (64, (16, 8)),
+    Stage.ASCENT: (1024, (32, 24)),
+    Stage.POLISH: (1 << 16, (128, 128)),
+}
+FEWEST = 64  # nodes at any effort
 CANDIDATES = 2048  # places of the scan among which the best are chosen
 KEPT = 64  # places of the scan that are looked at again
 APART = 0.15  # between two of them, in one of the coordinates
-CLIMBING = 4  # of them, places from which steps are made
+STARTS = 4  # of them, places from which steps are made
 LINE = 128  # places along each line
 SWEEPS = 2
 STEPS = 0.12, 1e-4, 48  # first, last, and how many at most
 BEYOND = 0.04  # of a range, so that its very ends are met
 
-Array = Any
+#: a place as numbers in [0, 1]: angle, azimuth if it matters, parameters
+At = Sequence[float]
 #: values at places (n, coordinates), with the nodes of a stage
-Value = Callable[[Array, str], Array]
+Value = Callable[["Array", Stage], "Array"]
 
 
 class Spot(NamedTuple):
@@ -71,11 +92,11 @@ class Space(NamedTuple):
         """The number of coordinates."""
         return 1 + self.turning + len(self.case.free)
 
-    def direction(self, at: Any) -> tuple[float, float]:
+    def direction(self, at: At) -> tuple[float, float]:
         """Polar angle and azimuth in degrees."""
         return LAST * at[0], 360.0 * at[1] if self.turning else self.case.phi_o_deg
 
-    def vector(self, at: Any) -> Vec:
+    def vector(self, at: At) -> Vec:
         """The direction itself."""
         return from_degrees(*self.direction(at))
 
@@ -84,7 +105,7 @@ class Space(NamedTuple):
         phi = 360.0 * at[:, 1] if self.turning else self.case.phi_o_deg
         return vectors(np.radians(LAST * at[:, 0]), np.radians(phi))
 
-    def parameters(self, at: Any) -> Any:
+    def parameters(self, at: At) -> Parameters:
         """The parameter set."""
         free = at[1 + self.turning :]
         return parameters.at(self.case, dict(zip(self.case.free, free, strict=True)))
@@ -97,7 +118,7 @@ class Space(NamedTuple):
         """The case's own parameters as coordinates."""
         return tuple(parameters.position(self.case, self.case.one).values())
 
-    def where(self, at: Any, letter: str) -> dict[str, float]:
+    def where(self, at: At, letter: str) -> dict[str, float]:
         """The place as findings give it."""
         theta, phi = self.direction(at)
         turned = {f"phi_{letter}_deg": round(phi, 3)} if phi else {}
@@ -110,7 +131,7 @@ def albedo(space: Space, of: Quantity) -> Value:
     infinite where it is not a number."""
     model = space.case.model
 
-    def value(at: Array, stage: str) -> Array:
+    def value(at: Array, stage: Stage) -> Array:
         w = space.vectors(at)
         sets = space.rows(at)
         own = Sampler.OWN in samplers_of(model, of)
@@ -134,8 +155,9 @@ def _side(space: Space, w: Array, sets: scattered.Rows) -> Array:
     return np.where(np.maximum(retro, mirror) > SHARP * beside, side, 0.0)
 
 
-def _nodes(space: Space, of: Quantity, stage: str) -> Array:
+def _nodes(space: Space, of: Quantity, stage: Stage) -> Array:
     draws, cells = NODES[stage]
+    draws = space.case.budget(draws, FEWEST)
     if Sampler.OWN in samplers_of(space.case.model, of):
         u = net(draws, stream(space.case.seed, "search"))
         return np.concatenate([u, np.full((draws, 1), 1.0 / draws)], axis=1)
@@ -146,11 +168,11 @@ def _nodes(space: Space, of: Quantity, stage: str) -> Array:
 def worst(space: Space, value: Value) -> Spot:
     """Where `value` is largest, as far as scan, lines and steps can tell."""
     scanned = _scan(space)
-    kept = _best(scanned, value(scanned, "scan"), KEPT)
-    starts = _best(kept, value(kept, "climb"), CLIMBING)
+    kept = _best(scanned, value(scanned, Stage.SCAN), space.case.budget(KEPT, STARTS))
+    starts = _best(kept, value(kept, Stage.ASCENT), STARTS)
     starts = np.concatenate([starts, [_lines(space, value, starts[0])]])
-    tops = _climb(value, starts)
-    values = value(tops, "polish")
+    tops = _ascend(value, starts)
+    values = value(tops, Stage.POLISH)
     k = int(np.argmax(values))
     return Spot(tuple(map(float, tops[k])), float(values[k]))
 
@@ -171,7 +193,7 @@ def _best(places: Array, values: Array, count: int) -> Array:
 def _scan(space: Space) -> Array:
     """The case's own parameters at some angles, then places everywhere."""
     own = [(t / LAST, *(0.0,) * space.turning, *space.own()) for t in ANGLES]
-    n = PLACES[min(space.size, len(PLACES)) - 1]
+    n = space.case.budget(PLACES[min(space.size, len(PLACES)) - 1])
     at = spread(n, space.size, stream(space.case.seed, "places"))
     at = np.clip((1.0 + 2.0 * BEYOND) * at - BEYOND, 0.0, 1.0)
     if space.case.model.prepare:
@@ -186,11 +208,11 @@ def _lines(space: Space, value: Value, at: Array) -> Array:
     for axis in [*range(space.size)] * SWEEPS:
         places = np.tile(at, (LINE + 1, 1))
         places[1:, axis] = steps
-        at = places[int(np.argmax(value(places, "climb")))]
+        at = places[int(np.argmax(value(places, Stage.ASCENT)))]
     return at
 
 
-def _climb(value: Value, starts: Array) -> Array:
+def _ascend(value: Value, starts: Array) -> Array:
     """Steps from every start to its best neighbour, halved where none of them gets higher."""
     step, last, most = STEPS
     size = starts.shape[1]
@@ -198,7 +220,7 @@ def _climb(value: Value, starts: Array) -> Array:
     offsets[:, 0] /= 3.0  # along the angle lobes change fast
     for _ in range(most):
         around = np.clip(starts[:, None, :] + step * offsets[None, :, :], 0.0, 1.0)
-        values = value(around.reshape(-1, size), "climb").reshape(len(starts), -1)
+        values = value(around.reshape(-1, size), Stage.ASCENT).reshape(len(starts), -1)
         chosen = np.argmax(values, axis=1)
         starts = around[np.arange(len(starts)), chosen]
         step *= 1.0 if chosen.any() else 0.5

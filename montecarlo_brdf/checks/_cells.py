@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +11,9 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks._truth import lobe_scale
 from montecarlo_brdf.estimate import cells
 from montecarlo_brdf.estimate.quadrature import Coordinates
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array
 
 COARSE, FINE, FINEST = (384, 256), (768, 512), (1536, 1024)  # grids of tabulated densities
 UNSURE = 0.01  # a rejected share that steps of the density may feign
@@ -28,7 +31,7 @@ class Cells:
         self.coordinates = Coordinates(self.wo, lobe_scale(case.model, case.one, self.wo))
 
     @functools.cached_property
-    def tables(self) -> tuple[Any, Any, float]:
+    def tables(self) -> tuple[Array, Array, float]:
         """(cumulated marginal in b, cumulated conditionals in x, total mass), midpoint rule."""
         density, _ = cells.tabulated(self.model, self.p, self.coordinates.place, self.size)
         density = density.reshape(self.size)
@@ -37,12 +40,12 @@ class Cells:
         return marginal, columns, float(marginal[-1])
 
     @functools.cached_property
-    def jittered(self) -> Any:
+    def jittered(self) -> Array:
         """The cells' probabilities by another grid, at random in each square."""
         place = self.coordinates.place
         density, wi = cells.tabulated(self.model, self.p, place, self.size, JITTERED)
         at = cells.placed(self.model, self.cut, wi)
-        return np.bincount(at, weights=density, minlength=CELLS)
+        return np.bincount(at, weights=density, minlength=CELLS).astype(float)
 
     @property
     def error(self) -> float:
@@ -60,12 +63,12 @@ class Cells:
         between = edges(marginal / mass, cells.COLUMNS)
         return cells.Cut(*self.size, np.concatenate([self.coordinates.place, between, *rows]))
 
-    def counts(self, key: int, samples: int, threads: int = 1) -> Any:
+    def counts(self, key: int, samples: int, threads: int = 1) -> Array:
         """Draws in each cell, and last those that were rejected or are not finite."""
         return cells.counted(self.model, self.p, self.cut, key, samples, threads)
 
     @property
-    def probability(self) -> Any:
+    def probability(self) -> Array:
         """Of each cell, and last of a rejected draw."""
         mass = self.tables[2]
         return np.array([mass / CELLS] * CELLS + [max(1.0 - mass, 0.0)])
@@ -79,7 +82,7 @@ class Cells:
         return rejected > 3.0 * abs(float(np.sum(self.jittered)) - self.tables[2])
 
 
-def edges(cumulated: Any, parts: int) -> Any:
+def edges(cumulated: Array, parts: int) -> Array:
     """Where a piecewise linear distribution, given at 0, 1, 2, ..., reaches k/parts; infinity if
     nowhere."""
     shares = np.arange(1, parts) / parts

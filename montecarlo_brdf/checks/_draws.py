@@ -7,40 +7,47 @@ that a small square of u covers is 1/pdf.
 from __future__ import annotations
 
 import functools
-import math
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from montecarlo_brdf.cases import directions, parameters
-from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.cases.case import Case, Parameters, pointwise
 from montecarlo_brdf.checks._hints import azimuth_named, moved_named, shape_named, wider_named
 from montecarlo_brdf.checks._truth import lobe_scale, own_probes
+from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quadrature import Coordinates, Integral, integrate
 from montecarlo_brdf.estimate.samplers import weighted
+from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Exact
+from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.streams import stream
+from montecarlo_brdf.statistics import Moments, estimate, hidden_error
+from montecarlo_brdf.vectors import Vec
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array, Flags
 
 NAME = "pdf"  # whose streams these are
-STEP, SHORTER = 1e-5, 1e-7
-MARGIN = 2.0**-10  # keeps finite differences away from the poles of u, whose error is (h/u)^2/8
+#: of u in central differences: rounding of directions, 2^-53, is then below 10^-10 of a difference
+STEP = 1e-5
+#: keeps finite differences away from the poles of u, where their relative error is (STEP/u)^2/8
+MARGIN = 2.0**-10
 POINTS = 4096
-DIFFERENCES = 2048  # points that take four more draws each
-#: the share of points that may lie on seams of the map, where differences do not exist
-SEAMS = 0.005
+#: numbers between which a difference of two draws tells that u[2] changes them
+CHOICES = 256
+#: of the length of a direction, and of a weight: thousands of roundings of a formula
 UNIT_TOLERANCE = 1e-6
-JACOBIAN_TOLERANCE = 3e-3
-#: standard errors and excess of a mass by which a direction surely belongs to several draws; what
-#: pdf times Jacobian counts for at most, as a few large values tell nothing about a mean
-SURE, EXCESS, CLIPPED = 5.0, 0.02, 4.0
-#: mean excess that is left to the mass, or belongs to a lobe that is drawn so seldom
-LITTLE = 0.05
+#: replicates of the mean of (1 - pdf Jacobian)+: Student's t of 63 degrees hides no tail
+REPLICATES = 64
 
 
-def values(case: Case, _: Any) -> Exact:
+def values(case: Case, _: object) -> Exact:
     """How often pdf is negative or not finite, also where it is not drawn but asked by others."""
     count, points, where, hint = 0, 0, {}, None
     for k, p in enumerate(parameters.sets(case, 3)):
-        wo, wi = directions.random_pairs(case.random(NAME, "values", k))
+        rng = case.random(NAME, "values", k)
+        wo, wi = directions.random_pairs(rng, case.budget(directions.RANDOM))
         density = pointwise(case.model, p).pdf(wo, wi)
         bad = ~(np.isfinite(density) & (density >= 0.0))
         if bad.any() and not count:
@@ -51,15 +58,20 @@ def values(case: Case, _: Any) -> Exact:
     return Exact(float(count), 0.0, where, points, hint=hint)
 
 
-def draws(case: Case, theta: float, n: int = POINTS) -> tuple[Any, Any, Any]:
+def draws(case: Case, theta: float, n: int) -> tuple[Array, Array, Array]:
     """(u, directions, weights) of n draws."""
-    u = case.random(NAME, theta).random((n, 3)) * (1.0 - 2.0 * MARGIN) + MARGIN
+    u = _inner(case.random(NAME, theta), n)
     return u, *pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
+
+
+def _inner(rng: np.random.Generator, n: int) -> Array:
+    """Numbers u (n, 3) that keep clear of 0 and 1."""
+    return rng.random((n, 3)) * (1.0 - 2.0 * MARGIN) + MARGIN
 
 
 def chooses(case: Case, theta: float) -> bool:
     """Whether u[2] changes the drawn direction."""
-    u, w, _ = draws(case, theta, 256)
+    u, w, _ = draws(case, theta, CHOICES)
     for third in (1.0 - u[:, 2], 2.0**-30, 1.0 - 2.0**-30):  # rare lobes lie at the ends
         u[:, 2] = third
         again, _ = pointwise(case.model, case.one).sample(np.array(case.wo(theta)), u)
@@ -74,11 +86,12 @@ def density_integral(case: Case, theta: float) -> Integral:
 
 
 @functools.lru_cache(maxsize=128)
-def density_integral_of(case_model: Any, one: Any, wo: Any) -> Integral:
+def density_integral_of(model: Model, one: Parameters, wo: Vec) -> Integral:
+    """The same for a model, a parameter set and a direction."""
     direction = np.array(wo)
-    coordinates = Coordinates(direction, lobe_scale(case_model, one, direction))
-    functions = pointwise(case_model, one)
-    seen = own_probes(case_model, one, wo)
+    coordinates = Coordinates(direction, lobe_scale(model, one, direction))
+    functions = pointwise(model, one)
+    seen = own_probes(model, one, wo)
     return integrate(lambda wi: functions.pdf(direction, wi), coordinates, probes=seen)
 
 
@@ -91,7 +104,8 @@ def faults(case: Case, theta: float) -> Exact:
     refuted.
     """
     edges = _edges()
-    u = np.concatenate([edges, case.random(NAME, "edges", theta).random((POINTS, 3))])
+    inner = case.random(NAME, "edges", theta).random((case.budget(POINTS), 3))
+    u = np.concatenate([edges, inner])
     kinds, dark = _kinds(case, np.array(case.wo(theta)), u)
     dark[len(edges) :] = False  # elsewhere than at the ends it is a fault like any other
     if case.model.pdf is not None:
@@ -103,7 +117,7 @@ def faults(case: Case, theta: float) -> Exact:
     return Exact(float(sum(counts.values())), points=len(u), note=_told(u[dark]), hint=hint)
 
 
-def _kinds(case: Case, wo: Any, u: Any) -> tuple[dict[str, Any], Any]:
+def _kinds(case: Case, wo: Array, u: Array) -> tuple[dict[str, Flags], Flags]:
     """Which draws have which fault, and which have neither pdf nor f."""
     functions = pointwise(case.model, case.one)
     w, weights = functions.sample(wo, u)
@@ -128,101 +142,102 @@ def _kinds(case: Case, wo: Any, u: Any) -> tuple[dict[str, Any], Any]:
     return kinds, dark
 
 
-def _told(u: Any) -> str | None:
+def _told(u: Array) -> str | None:
     """That f/pdf is 0/0, or pdf infinite, at some ends of [0, 1), where that is so."""
     if not len(u):
         return None
-    ends = tuple(float(v) for v in u[0])
-    return f"pdf is 0 as f, or infinite, at exactly u = {ends}: a renderer must skip such draws"
+    first = tuple(float(v) for v in u[0])
+    return f"pdf is 0 as f, or infinite, at exactly u = {first}: a renderer must skip such draws"
 
 
-def _edges() -> Any:
+def _edges() -> Array:
     """Numbers next to 0 and 1."""
     ends = (0.0, 5e-324, 2.0**-53, 0.5, 1.0 - 2.0**-53)
     return np.array([(a, b, 0.5) for a in ends for b in ends])
 
 
-def jacobian(case: Case, theta: float) -> Exact:
-    """The largest |pdf |dw/du1 x dw/du2| - 1| away from seams, by central differences.
+def deficit(case: Case, theta: float, plan: Plan) -> list[Measurement]:
+    """The mean of (1 - pdf J)+ over u, J = |dw/du0 x dw/du1|: the draws that pdf does not account
+    for.
 
-    Of a map made of many pieces (a table of cells) many draws have a seam within a step, and few
-    within a shorter one, which rounding allows where numbers have all their digits.
+    Where a direction belongs to one pair of numbers, 1/J is the density q of the draws, and the
+    mean is int (q - pdf)+ dw, the distance in total variation between draws and pdf. Where it
+    belongs to several, q is the sum of their 1/J, of which an honest pdf exceeds every one: the
+    mean is 0 again. A seam of the map within a step makes J large, no area (a number that changes
+    nothing) says nothing: both count as 0. So what is found is a distance that there is at least.
     """
-    found = _differences(case, theta, STEP)
-    if found.value <= JACOBIAN_TOLERANCE:
-        return found
-    shorter = _differences(case, theta, SHORTER)
-    return shorter if shorter.value <= JACOBIAN_TOLERANCE else found
+    place = (theta, case.phi_o_deg, *case.one)
+    rng = np.random.default_rng(
+        stream(plan.seed, case.model.name, NAME, "Jacobian", *place, plan.samples)
+    )
+    each = -(-plan.samples // REPLICATES)
+    ratio = _ratio(case, theta, _inner(rng, each * REPLICATES))[0]
+    lost = np.where(np.isfinite(ratio), np.maximum(1.0 - ratio, 0.0), 0.0)
+    e = estimate([_moments(part) for part in lost.reshape(REPLICATES, each)])
+    unseen = hidden_error(1.0, e.second_moment - e.mean**2, e.samples)
+    return [Measurement("differences", e._replace(stderr=max(e.stderr, unseen)))]
 
 
-def _differences(case: Case, theta: float, h: float) -> Exact:
+def _moments(x: Array) -> Moments:
+    mean = float(x.mean())
+    return Moments(float(len(x)), mean, float(np.sum((x - mean) ** 2)), float(x.max()))
+
+
+def _ratio(case: Case, theta: float, u: Array) -> tuple[Array, Array, Array]:
+    """(pdf J, J, directions) of draws, J by central differences; pdf J is NaN below the horizon and
+    where J is 0."""
     functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    u, w, _ = draws(case, theta, DIFFERENCES)
-    sides = []
-    for axis in (0, 1):
-        step = np.zeros(3)
-        step[axis] = h
-        ahead, behind = functions.sample(wo, u + step)[0], functions.sample(wo, u - step)[0]
-        sides.append(((ahead - behind) / (2.0 * h), np.minimum(ahead[:, 2], behind[:, 2])))
-    area = np.linalg.norm(np.cross(sides[0][0], sides[1][0]), axis=1)
-    above = (w[:, 2] > 1e-3) & (np.minimum(sides[0][1], sides[1][1]) > 0.0)
-    if above.sum() < 100:
-        return Exact(0.0, points=0, note="hardly any draw lies above the horizon")
-    w, area = w[above], area[above]
-    ratio = functions.pdf(wo, w) * area
-    if np.median(area) == 0.0:
-        alone = "one of the two numbers changes nothing: see `sampling`"
-        return Exact(0.0, points=len(w), note=alone)
-    value = float(np.quantile(np.abs(ratio - 1.0), 1.0 - SEAMS))
-    if value <= JACOBIAN_TOLERANCE:
-        return Exact(value, points=len(w))
-    below = float(np.quantile(1.0 - ratio, 1.0 - SEAMS))
-    if below <= JACOBIAN_TOLERANCE:  # of several pairs pdf is the sum, too small for none of them
-        if _belongs_to_several(case, theta, ratio, len(u)):
-            several = "a direction belongs to several pairs of numbers: see `sampling`"
-            return Exact(max(0.0, below), points=len(w), note=several)
-        if float(np.minimum(ratio, CLIPPED).mean()) <= 1.0 + LITTLE:
-            little = "pdf is a little above the density of some draws: the mass and `sampling` tell"
-            return Exact(max(0.0, below), points=len(w), note=little)
-    return Exact(value, points=len(w), hint=_ratio(functions.pdf, area, wo, w))
+    w, _ = functions.sample(wo, u)
+    steps = STEP * np.eye(3)[:2]
+    slopes = [functions.sample(wo, u + h)[0] - functions.sample(wo, u - h)[0] for h in steps]
+    area = np.linalg.norm(np.cross(slopes[0], slopes[1]), axis=1) / (2.0 * STEP) ** 2
+    usable = np.isfinite(w).all(axis=1) & (w[:, 2] > 0.0) & (area > 0.0)
+    density = functions.pdf(wo, np.where(usable[:, None], w, wo))
+    return np.where(usable, density * area, np.nan), area, w
 
 
-def _belongs_to_several(case: Case, theta: float, ratio: Any, drawn: int) -> bool:
-    """Whether directions are drawn by more than one pair of numbers each (an azimuth folded, a
-    number used twice): then pdf times Jacobian adds up to more than int pdf, whatever pdf is."""
-    found = density_integral(case, theta)
-    least = np.minimum(ratio, CLIPPED)
-    spread = math.sqrt(float(np.sum((least - least.mean()) ** 2))) / drawn
-    return bool(least.sum() / drawn - SURE * spread > found.value + found.error + EXCESS)
+def _finite_ratio(case: Case, theta: float) -> tuple[Array, Array, Array]:
+    """`_ratio` of some draws, where it is a number."""
+    found = _ratio(case, theta, _inner(case.random(NAME, theta), POINTS))
+    ratio, area, w = (part[np.isfinite(found[0])] for part in found)
+    return ratio, area, w
 
 
-def _ratio(pdf: Any, area: Any, wo: Any, w: Any) -> str:
-    """What pdf times Jacobian is: by the directions that pdf should have been asked for, by its
-    shape where that has a name, by who is wider."""
-    density = pdf(wo, w)
-    ratio, many = density * area, np.broadcast_to(wo, w.shape)
+def ratio_cause(case: Case, theta: float) -> str | None:
+    """What pdf times Jacobian is: by the directions that pdf should have been asked for, or by its
+    shape, where that has a name."""
+    pdf, wo = pointwise(case.model, case.one).pdf, np.array(case.wo(theta))
+    ratio, area, w = _finite_ratio(case, theta)
+    many = np.broadcast_to(wo, w.shape)
     meant = moved_named(lambda a, b: pdf(a, b) * area, many, w)
     if meant:
         return f"pdf is the density of the draws {meant}"
     named = shape_named(ratio, many, w)
-    if named:
-        return f"pdf / density of the draws = {named}"
+    return f"pdf / density of the draws = {named}" if named else None
+
+
+def ratio_hint(case: Case, theta: float) -> str:
+    """The same, or how it is spread and who is wider."""
+    if named := ratio_cause(case, theta):
+        return named
+    ratio, area, w = _finite_ratio(case, theta)
     low, middle, high = np.quantile(ratio, (0.05, 0.5, 0.95))
     said = f"pdf / density of the draws = {middle:.4g} in the middle, {low:.4g} to {high:.4g}"
-    return f"{said}{azimuth_named(ratio, w) or wider_named(ratio, density)}"
+    return f"{said}{azimuth_named(ratio, w) or wider_named(ratio, ratio / area)}"
 
 
 def weight(case: Case, theta: float) -> Exact:
     """The largest relative difference of the returned weight from f cos/pdf."""
     functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    _, w, weight = draws(case, theta)
+    _, w, weight = draws(case, theta, case.budget(POINTS))
     above = (w[:, 2] > 0.0) & np.isfinite(weight)
     expected = functions.f(wo, w[above]) * w[above][:, 2] / functions.pdf(wo, w[above])
     ratio = weight[above] / np.where(expected == 0.0, 1e-300, expected)
     ratio = np.where((expected == 0.0) & (weight[above] == 0.0), 1.0, ratio)
     k = int(np.argmax(np.abs(ratio - 1.0)))
     named = shape_named(ratio, np.broadcast_to(wo, w[above].shape), w[above])
-    hint = f"weight/(f cos/pdf) = {named or f'{float(np.median(ratio)):.6g} in the middle'}"
+    middle = f"{float(np.median(ratio)):.6g} in the middle"
+    hint = f"weight/(f cos/pdf) = {named or middle}"
     whole = expected * functions.pdf(wo, w[above])
     if whole.any() and np.allclose(weight[above], whole, rtol=1e-6, atol=0.0):
         hint = "the weight is f cos: it is not divided by the pdf"

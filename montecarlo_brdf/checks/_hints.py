@@ -1,19 +1,25 @@
 """Likely causes: numbers that name the mistake behind them."""
+
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from montecarlo_brdf.judge.hint import CLOSE, factor_named
 
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array, Function, Pairs
+
+    Move = Callable[[Array, Array], Pairs]
+
 FEWEST = 20  # pairs that a dependence must show in
 MIRRORED = np.array([-1.0, -1.0, 1.0])
 
 
-def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
+def shape_named(ratio: Array, wo: Array, wi: Array) -> str | None:
     """The factor and shape by which many values are off, if it is one of the usual ones."""
     h = wo + wi
     h = h / np.sqrt(np.sum(h * h, axis=1))[:, None]
@@ -45,7 +51,7 @@ def shape_named(ratio: Any, wo: Any, wi: Any) -> str | None:
 
 
 #: directions that a function is asked for by mistake -> how
-MOVES: dict[str, Callable[[Any, Any], tuple[Any, Any]]] = {
+MOVES: dict[str, Move] = {
     "with wo and wi swapped": lambda wo, wi: (wi, wo),
     "with wi turned by 180 degrees: around wo, or its mirror direction": lambda wo, wi: (
         wo,
@@ -58,15 +64,15 @@ MOVES: dict[str, Callable[[Any, Any], tuple[Any, Any]]] = {
 }
 
 
-def _quarter(w: Any) -> Any:
+def _quarter(w: Array) -> Array:
     return np.stack([-w[:, 1], w[:, 0], w[:, 2]], axis=-1)
 
 
-def moved_named(ratio: Any, wo: Any, wi: Any) -> str | None:
+def moved_named(ratio: Function, wo: Array, wi: Array) -> str | None:
     """How directions must be changed for ratio(wo, wi) to become 1, if it is one of the usual ways
     of confusing them."""
 
-    def one(values: Any) -> bool:
+    def one(values: Array) -> bool:
         values = values[np.isfinite(values)]
         return len(values) >= 100 and bool(np.quantile(np.abs(values - 1.0), 0.9) < CLOSE)
 
@@ -75,7 +81,7 @@ def moved_named(ratio: Any, wo: Any, wi: Any) -> str | None:
     return next((name for name, move in MOVES.items() if one(ratio(*move(wo, wi)))), None)
 
 
-def wider_named(ratio: Any, density: Any) -> str:
+def wider_named(ratio: Array, density: Array) -> str:
     """Whether a density is too high where it is high: then its lobe is narrower than what it is
     held against."""
     order = np.argsort(density)
@@ -86,7 +92,7 @@ def wider_named(ratio: Any, density: Any) -> str:
     return f": pdf is {kind} than the draws, compare their roughness or exponent"
 
 
-def azimuth_named(ratio: Any, w: Any) -> str:
+def azimuth_named(ratio: Array, w: Array) -> str:
     """Whether a ratio changes with the azimuth of w and with hardly anything else."""
     order = np.argsort(np.arctan2(w[:, 1], w[:, 0]))
     within = np.mean([np.var(part) for part in np.array_split(ratio[order], 32)])
@@ -95,7 +101,7 @@ def azimuth_named(ratio: Any, w: Any) -> str:
     return ": it changes with the azimuth, look at how phi is drawn" if changes else ""
 
 
-def dependence_named(ratio: Any, wo: Any, wi: Any) -> str | None:
+def dependence_named(ratio: Function, wo: Array, wi: Array) -> str | None:
     """What the deviation of a ratio from 1 depends on, asked by moving the directions: on the half
     vector alone (distribution, Fresnel) or on the two polar angles alone (masking, cosines)."""
     before = ratio(wo, wi)
@@ -112,20 +118,20 @@ def dependence_named(ratio: Any, wo: Any, wi: Any) -> str | None:
     return None
 
 
-def _about_half(wo: Any, wi: Any) -> tuple[Any, Any]:
+def _about_half(wo: Array, wi: Array) -> Pairs:
     """Both directions turned by 0.7 rad about their half vector, which stays."""
     h = wo + wi
     h = h / np.sqrt(np.sum(h * h, axis=1))[:, None]
     c, s = math.cos(0.7), math.sin(0.7)
 
-    def turned(w: Any) -> Any:
+    def turned(w: Array) -> Array:
         along = np.sum(w * h, axis=1)[:, None] * h
         return c * w + s * np.cross(h, w) + (1.0 - c) * along
 
     return turned(wo), turned(wi)
 
 
-def _about_normal(w: Any) -> Any:
+def _about_normal(w: Array) -> Array:
     c, s = math.cos(0.7), math.sin(0.7)
     return np.stack([c * w[:, 0] - s * w[:, 1], s * w[:, 0] + c * w[:, 1], w[:, 2]], axis=-1)
 

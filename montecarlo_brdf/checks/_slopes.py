@@ -8,12 +8,10 @@ direction or at wo itself. It cannot see: a sharp lobe elsewhere.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
-import numpy as np
-
-from montecarlo_brdf.cases.case import pointwise
+from montecarlo_brdf.cases.case import Parameters, pointwise
+from montecarlo_brdf.checks._truth import RETRO
 from montecarlo_brdf.compile.bind import bound
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
@@ -25,19 +23,25 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec, mirrored
 
+#: light from a direction, of the sky that a number names
+Sky = Callable[[Vec, float], float]
+Place = Sequence[float]
+
 NAME = "slopes"
 SAMPLES = 1 << 20
 AGREE = 6.0  # standard errors: what uniform directions miss of a sharp lobe is far more
 
 
-def albedo(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
+def albedo(model: Model, one: Parameters, wo: Vec, seed: int) -> Measurement:
     """A(wo)."""
     side = side_of(model, one, wo)
     mean = integrand(Quantity.ALBEDO, Sampler.SLOPES, {"F": model.f})
     return _measured(model, one, (*wo, side), mean, seed)
 
 
-def radiance(model: Model, one: Any, wo: Vec, sky: Any, which: float, seed: int) -> Measurement:
+def radiance(
+    model: Model, one: Parameters, wo: Vec, sky: Sky, which: float, seed: int
+) -> Measurement:
     """Reflected radiance under sky(w, which)."""
     place = (*wo, side_of(model, one, wo) * (1.0 + which))
     functions = {"F": model.f, "SKY": bound(sky_beside, SKY=sky)}
@@ -45,7 +49,7 @@ def radiance(model: Model, one: Any, wo: Vec, sky: Any, which: float, seed: int)
     return _measured(model, one, place, mean, seed)
 
 
-def mass(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
+def mass(model: Model, one: Parameters, wo: Vec, seed: int) -> Measurement:
     """int pdf dwi; by uniform directions where those agree and are more precise."""
     slopes, uniform = (
         _measured(model, one, (*wo, 1.0), integrand(Quantity.MASS, s, {"PDF": model.pdf}), seed)
@@ -56,14 +60,16 @@ def mass(model: Model, one: Any, wo: Vec, seed: int) -> Measurement:
     return uniform._replace(estimator="uniform") if agree and b.stderr < a.stderr else slopes
 
 
-def side_of(model: Model, one: Any, wo: Vec) -> float:
+def side_of(model: Model, one: Parameters, wo: Vec) -> float:
     """-1 where f is larger towards wo itself than towards its mirror direction, else 1."""
+    import numpy as np
+
     both = pointwise(model, one).f(np.array(wo), np.array([wo, mirrored(wo)]))
-    return -1.0 if both[0] > 2.0 * both[1] else 1.0
+    return -1.0 if both[0] > RETRO * both[1] else 1.0
 
 
 def _measured(
-    model: Model, one: Any, place: Sequence[float], mean: Integrand, seed: int
+    model: Model, one: Parameters, place: Place, mean: Integrand, seed: int
 ) -> Measurement:
     subject = Subject((model.name, *map(repr, one)), [model.prepared(one)])
     e = evaluate(subject, place, [mean], Plan(samples=SAMPLES, seed=seed), (NAME,))[0][0]

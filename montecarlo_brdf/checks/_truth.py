@@ -1,30 +1,45 @@
 """The expected albedo of a model: declared in its file, our own reference, or a quadrature of f."""
+
 from __future__ import annotations
 
 import functools
 import math
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
+from montecarlo_brdf.cases.case import Parameters, pointwise
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Reference
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, Reference
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.truth import true_albedo
 from montecarlo_brdf.vectors import Vec, from_degrees
 
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array
+    from montecarlo_brdf.estimate.quadrature import Coordinates, Probes
+    from montecarlo_brdf.mixture import Term
+
 #: numbers from which lobe coordinates learn the width of a sampler's lobe
 PILOT = 4096
 PROBES = 2048  # of these
 ROUNDING = 4.0 * 2.0**-52
+RESOLVED = 0.25  # of a tolerance: what the error of a quadrature may take of it to judge by
+QUOTABLE = 1e-5  # relative error from which a quadrature is an estimator beside those that sample
+RETRO = 2.0  # times f at the mirror direction, from which a lobe is sought at wo itself
 SHARPEST = 1e-5  # slope of the sharpest lobe that a model without a sampler may have
 
 
-def albedo(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+def albedo(
+    model: Model, one: Parameters, theta_deg: float, phi_deg: float = 0.0
+) -> Reference | None:
     """A(wo) as it should be; None if nothing can tell."""
     return independent(model, one, theta_deg, phi_deg) or same_f(model, one, theta_deg, phi_deg)
 
 
-def independent(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+def independent(
+    model: Model, one: Parameters, theta_deg: float, phi_deg: float = 0.0
+) -> Reference | None:
     """A(wo) from a formula that is not the model's f: declared by the user, or our reference."""
     mu = from_degrees(theta_deg)[2]
     if model.albedo:
@@ -42,32 +57,35 @@ def independent(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) 
     return Reference(*truth) if truth else None
 
 
-def _declared(model: Model, one: Any, mu: float) -> Reference:
+def _declared(model: Model, one: Parameters, mu: float) -> Reference:
     """What the model's file says, to rounding at the size that it has elsewhere: a sum that cancels
     at one angle leaves that much there."""
     assert model.albedo is not None
     value, *others = (float(model.albedo(m, one)) for m in (mu, 0.1, 0.5, 1.0))
     size = max((abs(v) for v in others if math.isfinite(v)), default=0.0)
-    return Reference(value, ROUNDING * size, "declared", f"albedo() of {model.name}")
+    return Reference(value, ROUNDING * size, Kind.DECLARED, f"albedo() of {model.name}")
 
 
-def same_f(model: Model, one: Any, theta_deg: float, phi_deg: float = 0.0) -> Reference | None:
+def same_f(
+    model: Model, one: Parameters, theta_deg: float, phi_deg: float = 0.0
+) -> Reference | None:
     """A(wo) by deterministic quadrature of f: it can refute samplers and estimators, not f itself.
 
     None where the quadrature does not resolve f well enough to judge anything by.
     """
     value, error = quadrature(model, one, from_degrees(theta_deg, phi_deg))
-    if not error <= 0.25 * AGREEMENT_TOLERANCE * abs(value):
+    if not error <= RESOLVED * AGREEMENT_TOLERANCE * abs(value):
         return None
-    return Reference(value, error, "quadrature of the same f", "lobe coordinates")
+    return Reference(value, error, Kind.SAME_F, "lobe coordinates")
 
 
 @functools.lru_cache(maxsize=1024)
-def quadrature(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> tuple[float, float]:
+def quadrature(
+    model: Model, one: Parameters, fixed: Vec, reverse: bool = False
+) -> tuple[float, float]:
     """(A(wo) or, reversed, R(wi); error) in coordinates that follow the lobe."""
     import numpy as np
 
-    from montecarlo_brdf.cases.case import pointwise
     from montecarlo_brdf.estimate.quadrature import integrate
 
     w = np.array(fixed)
@@ -81,13 +99,15 @@ def quadrature(model: Model, one: Any, fixed: Vec, reverse: bool = False) -> tup
     return found.value, found.error
 
 
-def probes(model: Model, one: Any, fixed: Any, reverse: bool = False) -> tuple[Any, ...]:
+def probes(
+    model: Model, one: Parameters, fixed: Array, reverse: bool = False
+) -> tuple[Probes, ...]:
     """Directions that may see what a quadrature misses: cosine-weighted, and the model's own."""
     return (_cosine_probes(), *(() if reverse else own_probes(model, one, fixed)))
 
 
 @functools.cache
-def _cosine_probes() -> tuple[Any, Any]:
+def _cosine_probes() -> Probes:
     import numpy as np
 
     u = _pilot()[:PROBES]
@@ -96,62 +116,57 @@ def _cosine_probes() -> tuple[Any, Any]:
     return wi, np.pi / (PROBES * wi[:, 2])
 
 
-def own_probes(model: Model, one: Any, fixed: Any) -> tuple[Any, ...]:
+def own_probes(model: Model, one: Parameters, fixed: Sequence[float] | Array) -> tuple[Probes, ...]:
     """Draws of the model's sampler, and the solid angle that each stands for; none without one.
 
     Draws that are no unit vectors lie nowhere.
     """
     import numpy as np
 
-    from montecarlo_brdf.cases.case import pointwise
-
     if not (model.sample and model.pdf):
         return ()
-    drawn = _drawn(model, one, tuple(map(float, fixed)))[1]
+    drawn = _pilot_draws(model, one, tuple(map(float, fixed)))[1]
     density = pointwise(model, one).pdf(np.array(fixed), drawn)
     unit = np.abs(np.sum(drawn * drawn, axis=1) - 1.0) < 1e-3
     known = np.isfinite(density) & (density > 0.0) & unit
     return ((drawn[known], 1.0 / (PROBES * density[known])),)
 
 
-def coordinates(model: Model, one: Any, wo: Any) -> Any:
+def coordinates(model: Model, one: Parameters, wo: Array) -> Coordinates:
     """Coordinates that follow the lobe, at the mirror direction or, where f is larger, at wo."""
-    from montecarlo_brdf.cases.case import pointwise
     from montecarlo_brdf.cases.directions import MIRROR
     from montecarlo_brdf.estimate.quadrature import Coordinates
 
     mirror, f = wo * MIRROR, pointwise(model, one).f
-    if model.sample is None and f(wo, wo)[0] > 2.0 * f(wo, mirror)[0]:
+    if model.sample is None and f(wo, wo)[0] > RETRO * f(wo, mirror)[0]:
         return Coordinates(mirror, _probed_scale(model, one, wo, mirror))
     return Coordinates(wo, lobe_scale(model, one, wo))
 
 
 def deterministic(
-    model: Model, one: Any, fixed: Vec, seed: int = 0, *, reverse: bool = False
+    model: Model, one: Parameters, fixed: Vec, seed: int = 0, *, reverse: bool = False
 ) -> Measurement:
     """The same as an estimator beside those that sample; the seed changes nothing."""
     value, error = quadrature(model, one, fixed, reverse)
     e = Estimate(value, error, 0, (value, value), value * value, value)
-    unfit = None if error <= 1e-5 * abs(value) else f"the quadrature resolves only {error:.0e}"
+    unfit = None if error <= QUOTABLE * abs(value) else f"the quadrature resolves only {error:.0e}"
     return Measurement("quadrature", e, unfit, error)
 
 
-def lobe_scale(model: Model, one: Any, wo: Any) -> float:
+def lobe_scale(model: Model, one: Parameters, wo: Array) -> float:
     """The smallest slope of interest: from the model's own draws, else from values of f."""
     from montecarlo_brdf.estimate.quadrature import scale_of
 
     if model.sample is None:
         return _probed_scale(model, one, wo, wo)
-    return scale_of(wo, _drawn(model, one, tuple(map(float, wo)))[0])
+    return scale_of(wo, _pilot_draws(model, one, tuple(map(float, wo)))[0])
 
 
 @functools.lru_cache(maxsize=8)
-def _drawn(model: Model, one: Any, wo: Vec) -> tuple[Any, Any]:
+def _pilot_draws(model: Model, one: Parameters, wo: Vec) -> tuple[Array, Array]:
     """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first
     PROBES."""
     import numpy as np
-
-    from montecarlo_brdf.cases.case import pointwise
 
     drawn, _ = pointwise(model, one).sample(np.array(wo), _pilot())
     above = np.isfinite(drawn).all(axis=1) & (drawn[:, 2] > 0.0)
@@ -159,18 +174,17 @@ def _drawn(model: Model, one: Any, wo: Vec) -> tuple[Any, Any]:
 
 
 @functools.cache
-def _pilot() -> Any:
+def _pilot() -> Array:
     import numpy as np
 
     return np.random.default_rng(PILOT).random((PILOT, 3))
 
 
-def _probed_scale(model: Model, one: Any, wo: Any, centre: Any) -> float:
+def _probed_scale(model: Model, one: Parameters, wo: Array, centre: Array) -> float:
     """The slope within which f cos has a tenth of its weight, from two lines through the mirror
     direction of `centre`: what draws would tell if there were a sampler."""
     import numpy as np
 
-    from montecarlo_brdf.cases.case import pointwise
     from montecarlo_brdf.estimate.quadrature import Coordinates
 
     finest = Coordinates(centre, SHARPEST)
@@ -185,7 +199,7 @@ def _probed_scale(model: Model, one: Any, wo: Any, centre: Any) -> float:
     return float(max(0.3 * np.hypot(h[0], h[1]) / h[2], SHARPEST))
 
 
-def _weight(p: Any, term: Any) -> float:
+def _weight(p: Parameters, term: Term) -> float:
     return float(getattr(p, f"{term.prefix}_weight"))
 
 
@@ -198,6 +212,6 @@ def _sum(parts: list[tuple[float, Reference | None]]) -> Reference | None:
     return Reference(
         math.fsum(w * r.value for w, r in known),
         math.fsum(w * r.error for w, r in known) + 1e-15,
-        "closed form" if kinds == {"closed form"} else "independent",
+        Kind.CLOSED_FORM if kinds == {Kind.CLOSED_FORM} else Kind.INDEPENDENT,
         " + ".join(dict.fromkeys(r.source for _, r in known)),
     )

@@ -4,32 +4,33 @@ R(wi), all that leaves for light from wi, and A(wo) are searched for their worst
 89.9 degrees and over the parameters' ranges (cases.worst). The worst is estimated again on a
 fresh stream and judged against 1. It cannot see: a peak narrower than the search.
 """
+
 from __future__ import annotations
 
 import functools
 import itertools
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
 from montecarlo_brdf.cases import parameters, worst
-from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import _truth, furnace
+from montecarlo_brdf.cases.case import Case, Parameters
+from montecarlo_brdf.checks import _albedo, _truth
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand, samplers_of
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import BOUND_TOLERANCE, Claim, MeanClaim, Reference, Skip
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.judge.claim import BOUND_TOLERANCE, Claim, Kind, MeanClaim, Reference, Skip
+from montecarlo_brdf.judge.finding import Bound
+from montecarlo_brdf.model import Model, Property
 from montecarlo_brdf.vectors import Vec
 
 NAME = "energy"
 QUESTION = "is ever more reflected than received?"
-PROPERTY = "energy"
+PROPERTY = Property.ENERGY
 QUANTITIES = {Quantity.ALBEDO: "A", Quantity.REVERSE: "R"}
 UNDRAWN = (0.0, 45.0, 85.0)  # degrees at which a quadrature is asked too
 
@@ -66,15 +67,15 @@ def _claim(space: worst.Space, quantity: Quantity, symbol: str, channel: dict[st
     return MeanClaim(
         f"worst {symbol} <= 1",
         {**space.where(spot.at, "i" if reverse else "o"), **channel},
-        "at most",
-        Reference(1.0, 0.0, "bound", "energy conservation"),
+        Bound.AT_MOST,
+        Reference(1.0, 0.0, Kind.BOUND, "energy conservation"),
         case.tolerated(BOUND_TOLERANCE),
         functools.partial(_reverse, case.model, p, fixed)
         if reverse
-        else functools.partial(_albedo, there, theta),
+        else functools.partial(_first, there, theta),
         property=PROPERTY,
-        unit=furnace.units(case.model, p),
-        cause=_cause(space, spot, value),
+        unit=_albedo.units(case.model, p),
+        cause=functools.partial(_cause, space, spot, value),
         fallback=functools.partial(_truth.deterministic, case.model, p, fixed, reverse=reverse),
     )
 
@@ -83,7 +84,7 @@ def _undrawn(space: worst.Space, quantity: Quantity, spot: worst.Spot) -> worst.
     """A worse place by a quadrature of f, with parameters at the ends of their ranges and some
     inside: a search by the model's own sampler sees only what that draws."""
     case = space.case
-    sets = (*parameters.ends(case), *parameters.sets(case)) if case.model.sample else ()
+    sets = (*parameters.extremes(case), *parameters.sets(case)) if case.model.sample else ()
     for p, theta in itertools.product(sets, UNDRAWN):
         position = parameters.position(case, p).values()
         at = (theta / worst.LAST, *(0.0,) * space.turning, *position)
@@ -100,18 +101,18 @@ def _cause(space: worst.Space, spot: worst.Spot, value: worst.Value) -> str:
     if theta > 85.0 and spot.value > 1.5:
         return "grows towards grazing: look at masking and at cosines in denominators"
     own = np.array([(*spot.at[: 1 + space.turning], *space.own())])
-    if value(own, "climb")[0] <= 1.0 + BOUND_TOLERANCE < spot.value:
+    if value(own, worst.Stage.ASCENT)[0] <= 1.0 + BOUND_TOLERANCE < spot.value:
         return parameters.unlike(case, space.parameters(spot.at))
     turned = f", azimuth {space.direction(spot.at)[1]:.0f}" if space.turning else ""
     return f"most at {theta:.1f} degrees{turned}: compare the normalisation, weights that add up"
 
 
-def _albedo(case: Case, theta: float, plan: Plan) -> list[Measurement]:
-    """A by every sampler, as `furnace` measures it: its kernel is there already."""
-    return furnace.measure(case, theta, plan)[0]
+def _first(case: Case, theta: float, plan: Plan) -> list[Measurement]:
+    """A of the only channel by every sampler."""
+    return _albedo.measure(case, theta, plan)[0]
 
 
-def _reverse(model: Model, p: Any, wi: Vec, plan: Plan) -> list[Measurement]:
+def _reverse(model: Model, p: Parameters, wi: Vec, plan: Plan) -> list[Measurement]:
     """R by every sampler."""
     chosen = samplers_of(model, Quantity.REVERSE)
     means = [integrand(model, Quantity.REVERSE, s) for s in chosen]

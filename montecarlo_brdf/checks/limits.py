@@ -12,23 +12,26 @@ import functools
 from collections.abc import Iterator
 
 from montecarlo_brdf.cases import parameters
-from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import equality, furnace
+from montecarlo_brdf.cases.case import Case, Parameters
+from montecarlo_brdf.checks import _albedo, _deviation, equality
 from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
     Claim,
     Exact,
     ExactClaim,
+    Kind,
     MeanClaim,
     Reference,
     Skip,
     worst_of,
 )
+from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.loading import load
+from montecarlo_brdf.model import Property
 
 NAME = "limits"
 QUESTION = "does it become what it must?"
-PROPERTY = "reference"
+PROPERTY = Property.REFERENCE
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -39,29 +42,29 @@ def claims(case: Case) -> Iterator[Claim]:
         yield Skip("limits", "the model declares no limits and no lossless parameter set")
     for p in lossless:
         yield from _lossless_claims(case, p)
-    if case.model.lossless is True and furnace.searchable(case):
-        yield furnace.inside(case, "A of a lossless surface", lambda mu, p: 1.0, "lossless")
+    if case.model.lossless is True and _albedo.searchable(case):
+        yield _deviation.farthest(case, "A of a lossless surface", lambda mu, p: 1.0, "lossless")
     for changes, spec in declared:
         yield _limit(case, dict(changes), spec)
 
 
-def _lossless(case: Case) -> list[object]:
+def _lossless(case: Case) -> list[Parameters]:
     """The parameter sets that must reflect exactly 1."""
     if case.model.lossless is True:
         return list(case.sets)
     return list(case.model.lossless or ())
 
 
-def _lossless_claims(case: Case, p: object) -> Iterator[Claim]:
+def _lossless_claims(case: Case, p: Parameters) -> Iterator[Claim]:
     for theta in case.theta_o_deg:
-        measure = functools.cache(functools.partial(furnace.measure, case._replace(p=p), theta))
+        measure = functools.cache(functools.partial(_albedo.measure, case._replace(p=p), theta))
         yield MeanClaim(
             "A of a lossless surface",
             case.where(theta_o_deg=theta),
-            "equal",
-            Reference(1.0, 0.0, "declared", "lossless"),
+            Bound.EQUAL,
+            Reference(1.0, 0.0, Kind.DECLARED, "lossless"),
             case.tolerated(AGREEMENT_TOLERANCE),
-            functools.partial(furnace.of_channel, measure, 0),
+            functools.partial(_albedo.of_channel, measure, 0),
             property=PROPERTY,
         )
 
@@ -73,8 +76,8 @@ def _limit(case: Case, changes: dict[str, float], spec: str) -> Claim:
     return ExactClaim(
         f"|f - f of {spec}|/f at {said}",
         {},
-        "at most",
-        Reference(0.0, 0.0, "declared", f"becomes {spec}"),
+        Bound.AT_MOST,
+        Reference(0.0, 0.0, Kind.DECLARED, f"becomes {spec}"),
         case.tolerated(equality.TOLERANCE),
         lambda: _worst(there, spec),
         property=PROPERTY,
@@ -84,8 +87,8 @@ def _limit(case: Case, changes: dict[str, float], spec: str) -> Claim:
 def _worst(case: Case, spec: str) -> Exact:
     """The largest difference from the other model, also where other parameters differ."""
     other = load(spec)
-    looks = enumerate((*parameters.sets(case), *parameters.ends(case)))
+    sets = enumerate((*parameters.sets(case), *parameters.extremes(case)))
     return worst_of(
         equality.difference(case, p, other, equality.shared(other, p), case.random(NAME, spec, k))
-        for k, p in looks
+        for k, p in sets
     )

@@ -1,18 +1,20 @@
 """The density of the sampler: does it integrate to 1 less what is rejected, and is it its Jacobian?
 
 int pdf by quadrature in coordinates that follow the lobe, plus the fraction of draws that are
-rejected, is 1; pdf |dw/du1 x dw/du2| = 1 by finite differences where one direction belongs to one
-pair of numbers, and at least 1 where it belongs to several; a returned weight is f cos/pdf; drawn
-directions are finite unit vectors with pdf > 0, which is finite and not negative anywhere. All this
-also at other azimuths and parameters, and at the ends of their ranges.
+rejected, is 1; pdf |dw/du1 x dw/du2| by finite differences is 1 where one direction belongs to one
+pair of numbers, and at least 1 where it belongs to several: what it lacks of 1, on average over u,
+is a distance between draws and pdf. A returned weight is f cos/pdf; drawn directions are finite
+unit vectors with pdf > 0, which is finite and not negative anywhere. All this also at other
+azimuths and parameters, and at the ends of their ranges.
 It cannot see: a density that is wrong in shape where the sampler chooses among lobes (`sampling`
 can).
 """
+
 from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -20,22 +22,29 @@ import numpy as np
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws, _slopes
+from montecarlo_brdf.checks._truth import RESOLVED
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import Claim, ExactClaim, MeanClaim, Reference, Skip
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, MeanClaim, Reference, Skip
+from montecarlo_brdf.judge.finding import Bound
+from montecarlo_brdf.model import Property
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate, hidden_error
 
 NAME = "pdf"
 QUESTION = "does the pdf integrate to 1, is it the sampler's Jacobian, is the weight f cos/pdf?"
-PROPERTY = "pdf"
+PROPERTY = Property.PDF
 #: of the mass; the edge of the rejected region limits how fast the rejected fraction converges
 MASS_TOLERANCE = 5e-4
+#: of the draws: the share that pdf may lack
+JACOBIAN_TOLERANCE = 2e-3
 #: degrees: beyond that samplers tend to have a way of their own
 GRAZING = 86.0
+#: a law that a case and an angle are asked about
+Evaluation = Callable[[Case, Any], Exact]
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -48,7 +57,11 @@ def claims(case: Case) -> Iterator[Claim]:
         if case.model.pdf is not None:
             yield _normalisation(case, theta)
             yield from _pointwise(case, theta)
-    for other, theta in (*parameters.elsewhere(case), (case, GRAZING), *parameters.at_ends(case)):
+    for other, theta in (
+        *parameters.elsewhere(case),
+        (case, GRAZING),
+        *parameters.at_extremes(case),
+    ):
         yield _claim(other, theta, "drawn directions at fault", 0.0, _draws.faults)
         if case.model.pdf is not None:
             if resolved(other, theta):
@@ -63,30 +76,45 @@ def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
     if _draws.chooses(case, theta):
         yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
     else:
-        yield _claim(case, theta, "|pdf Jacobian - 1|", _draws.JACOBIAN_TOLERANCE, _draws.jacobian)
-    if np.isfinite(_draws.draws(case, theta)[2]).any():
+        yield _jacobian(case, theta)
+    if np.isfinite(_draws.draws(case, theta, case.budget(_draws.POINTS))[2]).any():
         yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, _draws.weight)
+
+
+def _jacobian(case: Case, theta: float) -> MeanClaim:
+    return MeanClaim(
+        "(1 - pdf Jacobian)+",
+        parameters.where(case, theta),
+        Bound.AT_MOST,
+        Reference(0.0, 0.0, Kind.LAW, "sampler and density belong together"),
+        JACOBIAN_TOLERANCE,
+        functools.partial(_draws.deficit, case, theta),
+        property=PROPERTY,
+        diagnosis=functools.partial(_draws.ratio_hint, case, theta),
+    )
 
 
 def resolved(case: Case, theta: float) -> bool:
     """Whether the quadrature of pdf is good enough to judge by."""
     found = _draws.density_integral(case, theta)
-    return bool(found.error <= 0.25 * MASS_TOLERANCE)
+    return bool(found.error <= RESOLVED * MASS_TOLERANCE)
 
 
-def _claim(case: Case, theta: Any, quantity: str, tolerance: float, evaluate: Any) -> ExactClaim:
+def _claim(
+    case: Case, theta: float | None, quantity: str, tolerance: float, evaluate: Evaluation
+) -> ExactClaim:
     return ExactClaim(
         quantity,
         _where(case, theta),
-        "at most",
-        Reference(0.0, 0.0, "law", "sampler and density belong together"),
+        Bound.AT_MOST,
+        Reference(0.0, 0.0, Kind.LAW, "sampler and density belong together"),
         tolerance,
         functools.partial(evaluate, case, theta),
         property=PROPERTY,
     )
 
 
-def _where(case: Case, theta: Any) -> dict[str, Any]:
+def _where(case: Case, theta: float | None) -> dict[str, Any]:
     return parameters.changed(case, case.one) if theta is None else parameters.where(case, theta)
 
 
@@ -94,14 +122,18 @@ def _normalisation(case: Case, theta: float) -> MeanClaim:
     return MeanClaim(
         "int pdf + rejected",
         _where(case, theta),
-        "equal",
-        Reference(1.0, 0.0, "law", "a density integrates to 1"),
+        Bound.EQUAL,
+        Reference(1.0, 0.0, Kind.LAW, "a density integrates to 1"),
         case.tolerated(MASS_TOLERANCE),
         functools.partial(_mass, case, theta),
         property=PROPERTY,
-        unit={"expected": 1.0},
+        diagnosis=functools.partial(_named, case, theta),
         fallback=functools.partial(_sampled_mass, case, theta),
     )
+
+
+def _named(case: Case, theta: float) -> str | None:
+    return None if _draws.chooses(case, theta) else _draws.ratio_cause(case, theta)
 
 
 def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:
@@ -127,7 +159,7 @@ def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     integral = _draws.density_integral(case, theta)
     rejected = _rejected(case, theta, plan)
     unfit = None
-    if not integral.error <= 0.25 * case.tolerated(MASS_TOLERANCE) + 1e-9:
+    if not integral.error <= RESOLVED * case.tolerated(MASS_TOLERANCE) + 1e-9:
         unfit = f"the quadrature of pdf resolves only {integral.error:.1e}"
     variance = rejected.second_moment - rejected.mean**2
     unseen = hidden_error(1.0, variance, rejected.samples)

@@ -12,18 +12,23 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from montecarlo_brdf.cases import directions, parameters
-from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.cases.case import Case, Parameters, pointwise
 from montecarlo_brdf.estimate import scattered
-from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
+from montecarlo_brdf.judge.finding import Bound
+from montecarlo_brdf.model import Property
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array, Deviation
 
 NAME = "positivity"
 QUESTION = "finite and >= 0 everywhere?"
-PROPERTY = "positivity"
+PROPERTY = Property.POSITIVITY
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -32,8 +37,8 @@ def claims(case: Case) -> Iterator[Claim]:
     yield ExactClaim(
         "values of f not finite",
         {},
-        "at most",
-        Reference(0.0, 0.0, "law", "a BRDF is a density of reflected light"),
+        Bound.AT_MOST,
+        Reference(0.0, 0.0, Kind.LAW, "a BRDF is a density of reflected light"),
         0.0,
         lambda: seen()[0],
         property=PROPERTY,
@@ -41,29 +46,27 @@ def claims(case: Case) -> Iterator[Claim]:
     yield ExactClaim(
         "smallest f / f around it",
         {},
-        "at least",
-        Reference(0.0, 0.0, "law", "a BRDF is a density of reflected light"),
+        Bound.AT_LEAST,
+        Reference(0.0, 0.0, Kind.LAW, "a BRDF is a density of reflected light"),
         case.tolerated(directions.ROUNDING),
         lambda: seen()[1],
         property=PROPERTY,
     )
 
 
-def _lowest(case: Case) -> Any:
+def _lowest(case: Case) -> Deviation:
     """How low f is at many pairs, each with parameters of its own; what is no number first."""
 
-    def lowest(wo: Any, wi: Any, sets: scattered.Rows) -> Any:
+    def lowest(wo: Array, wi: Array, sets: scattered.Rows) -> Array:
         f = scattered.pair_values(case.model, wo, wi, sets)
         return np.where(np.isfinite(f), -f, np.inf)
 
     return lowest
 
 
-def _values(case: Case) -> Iterator[tuple[Any, Any, Any, Any]]:
-    looks: list[tuple[Any, ...]] = [(p,) for p in (*parameters.sets(case), *parameters.ends(case))]
-    if case.free:
-        looks.append(directions.worst_pair(case, case.random(NAME, "all"), _lowest(case)))
-    for k, (p, *more) in enumerate(looks):
+def _values(case: Case) -> Iterator[tuple[Parameters, Array, Array, Array]]:
+    found = directions.subjects(case, case.random(NAME, "all"), _lowest(case))
+    for k, (p, *more) in enumerate(found):
         wo, wi = directions.all_pairs(case, p, case.random(NAME, k), *more)
         yield p, wo, wi, pointwise(case.model, p).f(wo, wi)
 
@@ -77,7 +80,7 @@ def _seen(case: Case) -> tuple[Exact, Exact]:
     return wild, low
 
 
-def _not_finite(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> Exact:
+def _not_finite(case: Case, p: Parameters, wo: Array, wi: Array, f: Array, found: Exact) -> Exact:
     """`found` with the values that are not finite counted, and the place of the first."""
     bad, points = ~np.isfinite(f), found.points + len(f)
     if bad.any() and not found.value:
@@ -88,7 +91,7 @@ def _not_finite(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> E
     return found._replace(value=found.value + float(bad.sum()), points=points)
 
 
-def _smallest(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> Exact:
+def _smallest(case: Case, p: Parameters, wo: Array, wi: Array, f: Array, found: Exact) -> Exact:
     """`found`, or a value that lies deeper below zero."""
     (low,) = np.nonzero(np.isfinite(f) & (f < 0.0))
     points = found.points + len(f)
@@ -103,15 +106,16 @@ def _smallest(case: Case, p: Any, wo: Any, wi: Any, f: Any, found: Exact) -> Exa
     return Exact(float(value.min()), 0.0, where, points, hint=hint)
 
 
-def _scale(case: Case, p: Any, wo: Any, wi: Any) -> Any:
+def _scale(case: Case, p: Parameters, wo: Array, wi: Array) -> Array:
     """The largest |f| between the polar angles of each pair, and at least the median of |f|."""
-    f = np.abs(pointwise(case.model, p).f(*directions.random_pairs(case.random(NAME, "median"))))
+    pairs = directions.random_pairs(case.random(NAME, "median"), case.budget(directions.RANDOM))
+    f = np.abs(pointwise(case.model, p).f(*pairs))
     f = f[np.isfinite(f) & (f > 0.0)]
     scale = np.full(len(wo), np.median(f) if len(f) else 1.0)
     return np.fmax(scale, directions.around(pointwise(case.model, p).f, wo, wi))
 
 
-def _name(wo: Any, wi: Any) -> str:
+def _name(wo: Array, wi: Array) -> str:
     """The kind of place, in words where it has a name."""
     named = []
     if min(wo[2], wi[2]) < 1e-4:

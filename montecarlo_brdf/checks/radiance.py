@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,33 +25,39 @@ from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand, samplers_of, weighted
 from montecarlo_brdf.estimate.subject import subject_of
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, MeanClaim, Reference, Skip
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, Kind, MeanClaim, Reference, Skip
+from montecarlo_brdf.judge.finding import Bound
+from montecarlo_brdf.model import Property
 from montecarlo_brdf.sampling.directions import Sampler
+from montecarlo_brdf.vectors import Vec
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array
 
 NAME = "radiance"
 QUESTION = "does it hold under light that is not constant?"
-PROPERTY = "pdf"
+PROPERTY = Property.PDF
 TOLERANCE = 10.0 * AGREEMENT_TOLERANCE
 
 
-def cosine_sky(w: Any) -> float:
+def cosine_sky(w: Vec) -> float:
     """L = cos(theta)."""
     return w[2]
 
 
-def tilted_sky(w: Any) -> float:
+def tilted_sky(w: Vec) -> float:
     """L = (1 + w . u)^2/4, with u tilted by 0.7 rad towards azimuth 0.8 rad: the plane of incidence
     divides it unequally, so that left and right are told apart."""
     c = 1.0 + w[0] * 0.4488307849786131 + w[1] * 0.4621334818051614 + w[2] * 0.7648421872844885
     return 0.25 * c * c
 
 
-def either_sky(w: Any, which: float) -> float:
+def either_sky(w: Vec, which: float) -> float:
     """The sky that a number chooses: both share their kernels."""
     return cosine_sky(w) if which == 0.0 else tilted_sky(w)
 
 
-SKIES: dict[str, Callable[[Any], float]] = {"cos": cosine_sky, "tilted": tilted_sky}
+SKIES: dict[str, Callable[[Vec], float]] = {"cos": cosine_sky, "tilted": tilted_sky}
 WHICH = {name: float(k) for k, name in enumerate(SKIES)}
 
 
@@ -68,7 +74,7 @@ def claims(case: Case) -> Iterator[Claim]:
             yield MeanClaim(
                 f"L_o, {name} sky",
                 where,
-                "equal",
+                Bound.EQUAL,
                 expected,
                 case.tolerated(TOLERANCE) * abs(expected.value),
                 functools.partial(_measure, there, theta, name),
@@ -95,17 +101,17 @@ def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measuremen
     return functools.partial(_slopes.radiance, case.model, *place)
 
 
-def _expected(case: Case, theta: float, sky: Any) -> Reference | None:
+def _expected(case: Case, theta: float, sky: Callable[[Any], float]) -> Reference | None:
     wo, functions = np.array(case.wo(theta)), pointwise(case.model, case.one)
 
-    def integrand(wi: Any) -> Any:
+    def lit(wi: Array) -> Array:
         return functions.f(wo, wi) * wi[:, 2] * sky(wi.T)
 
     seen = _truth.probes(case.model, case.one, wo)
-    found = integrate(integrand, _truth.coordinates(case.model, case.one, wo), probes=seen)
-    if not found.error <= 0.25 * TOLERANCE * abs(found.value):
+    found = integrate(lit, _truth.coordinates(case.model, case.one, wo), probes=seen)
+    if not found.error <= _truth.RESOLVED * TOLERANCE * abs(found.value):
         return None
-    return Reference(found.value, found.error, "quadrature of the same f", "lobe coordinates")
+    return Reference(found.value, found.error, Kind.SAME_F, "lobe coordinates")
 
 
 def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measurement]:

@@ -9,18 +9,23 @@ directions by two ulps does.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from montecarlo_brdf.cases import directions, parameters
-from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.cases.case import Case, Parameters, pointwise
 from montecarlo_brdf.estimate import scattered
-from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Reference, worst_of
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference, worst_of
+from montecarlo_brdf.judge.finding import Bound
+from montecarlo_brdf.model import Property
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array, Pairs
 
 NAME = "reciprocity"
 QUESTION = "f(wo, wi) = f(wi, wo)?"
-PROPERTY = "reciprocity"
+PROPERTY = Property.RECIPROCITY
 #: relative; rounding of directions moves a lobe of width alpha by eps/alpha, far below this
 TOLERANCE = 1e-6
 #: values below this share of the largest are rounding
@@ -32,8 +37,8 @@ def claims(case: Case) -> Iterator[Claim]:
     yield ExactClaim(
         "|f - f'|/max(f, f')",
         {},
-        "at most",
-        Reference(0.0, 0.0, "law", "Helmholtz reciprocity"),
+        Bound.AT_MOST,
+        Reference(0.0, 0.0, Kind.LAW, "Helmholtz reciprocity"),
         case.tolerated(TOLERANCE),
         lambda: worst(case),
         property=PROPERTY,
@@ -42,20 +47,20 @@ def claims(case: Case) -> Iterator[Claim]:
 
 def worst(case: Case) -> Exact:
     """The worst pair over all parameter sets."""
-    looks = [_worst_of(case, p, case.random(NAME, k)) for k, p in enumerate(parameters.sets(case))]
+    found = [_worst_of(case, p, case.random(NAME, k)) for k, p in enumerate(parameters.sets(case))]
 
-    def asymmetry(wo: Any, wi: Any, sets: scattered.Rows) -> Any:
+    def asymmetry(wo: Array, wi: Array, sets: scattered.Rows) -> Array:
         there = scattered.pair_values(case.model, wo, wi, sets)
         return _relative(there, scattered.pair_values(case.model, wi, wo, sets))
 
     if case.free:
         p, pair = directions.worst_pair(case, case.random(NAME, "everywhere"), asymmetry)
         one = _worst_of(case, p, case.random(NAME, "there"), pair)
-        looks.append(one._replace(points=one.points + directions.SCATTERED))
-    return worst_of(reversed(looks))  # of equal ones the first
+        found.append(one._replace(points=one.points + case.budget(directions.SCATTERED)))
+    return worst_of(reversed(found))  # of equal ones the first
 
 
-def _relative(there: Any, back: Any) -> Any:
+def _relative(there: Array, back: Array) -> Array:
     """|f - f'|/max(f, f'); 0 where one of them is not finite, which is positivity's business."""
     usable = np.isfinite(there) & np.isfinite(back)
     there, back = np.where(usable, there, 0.0), np.where(usable, back, 0.0)
@@ -64,7 +69,7 @@ def _relative(there: Any, back: Any) -> Any:
     return np.abs(there - back) / np.maximum(high, floor if floor > 0.0 else 1.0)
 
 
-def _worst_of(case: Case, p: Any, rng: Any, *more: Any) -> Exact:
+def _worst_of(case: Case, p: Parameters, rng: np.random.Generator, *more: Pairs) -> Exact:
     wo, wi = directions.all_pairs(case, p, rng, *more)
     f = pointwise(case.model, p).f
     there, back = f(wo, wi), f(wi, wo)
@@ -74,13 +79,15 @@ def _worst_of(case: Case, p: Any, rng: Any, *more: Any) -> Exact:
         relative = directions.unexplained(relative, np.abs(there - back), TOLERANCE, f, wo, wi, rng)
     k = int(np.argmax(relative))
     where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
-    hint = _hint(there[k], back[k], wo[k], wi[k])
-    if relative[k] > TOLERANCE and "cosine" not in hint and _one_sided(case, p, rng):
+    hint = f"f = {there[k]:.6g} one way and {back[k]:.6g} the other"
+    if named := _cosine_named(there[k], back[k], wo[k], wi[k]):
+        hint += f": their ratio is {named}, a cosine belongs to one direction only"
+    elif relative[k] > TOLERANCE and _one_sided(case, p, rng):
         hint += ": f is symmetric but for a factor that depends on one direction alone"
     return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
 
 
-def _one_sided(case: Case, p: Any, rng: Any) -> bool:
+def _one_sided(case: Case, p: Parameters, rng: np.random.Generator) -> bool:
     """Whether f(a, b)/f(b, a) = g(a)/g(b): then the ratios of three directions multiply to 1."""
     f = pointwise(case.model, p).f
     (a, b), (c, _) = directions.random_pairs(rng, 400), directions.random_pairs(rng, 400)
@@ -90,11 +97,10 @@ def _one_sided(case: Case, p: Any, rng: Any) -> bool:
     return len(usable) > 200 and float(np.quantile(np.abs(usable - 1.0), 0.95)) < TOLERANCE
 
 
-def _hint(there: float, back: float, wo: Any, wi: Any) -> str:
-    """What the ratio of the two values says."""
-    said = f"f = {there:.6g} one way and {back:.6g} the other"
-    if there > 0.0 and back > 0.0:
-        for name, ratio in (("cos_o/cos_i", wo[2] / wi[2]), ("cos_i/cos_o", wi[2] / wo[2])):
-            if abs(ratio - 1.0) > 1e-3 and abs(there / back / ratio - 1.0) < 1e-3:
-                return f"{said}: their ratio is {name}, a cosine belongs to one direction only"
-    return said
+def _cosine_named(there: float, back: float, wo: Array, wi: Array) -> str | None:
+    """The ratio of two cosines that the ratio of the two values is, if it is one."""
+    if not (there > 0.0 and back > 0.0):
+        return None
+    ratios = {"cos_o/cos_i": wo[2] / wi[2], "cos_i/cos_o": wi[2] / wo[2]}
+    telling = {k: r for k, r in ratios.items() if abs(r - 1.0) > 1e-3}
+    return next((k for k, r in telling.items() if abs(there / back / r - 1.0) < 1e-3), None)

@@ -6,12 +6,13 @@ about the distance d = sqrt(chi2/N) of the two distributions: pass if it is sure
 if chi2 rejects twice. It cannot see: differences within a cell; a density that is wrong by a
 constant factor shows in `pdf`.
 """
+
 from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,17 +23,27 @@ from montecarlo_brdf.checks._cells import COARSE, FINE, FINEST, UNSURE, Cells
 from montecarlo_brdf.estimate.cells import COLUMNS, ROWS
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Fit, FitClaim, Skip
+from montecarlo_brdf.model import Property
 from montecarlo_brdf.sampling.streams import stream
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array
 
 NAME = "sampling"
 QUESTION = "do drawn directions follow pdf?"
-PROPERTY = "pdf"
+PROPERTY = Property.PDF
 TOLERANCE = 0.015
 DRAWS = 1.5  # per sample allowed: with 2^20 draws honest ones of two standard deviations stay open
 MOST = 3 << 19  # draws per look
+WIDER = 2.0  # times the tolerance elsewhere
 FEWER = 1 << 18  # samples elsewhere
 SUSPICIOUS = 1e-3  # a p-value that makes grids finer
 GROSS = 5.0  # times the tolerance: what no finer grid explains, its own error being taken off
+Size = tuple[int, int]
+Tables = Callable[[Size], Cells]
+Measure = Callable[[Plan, float], Fit]
+EXPECTED = 10.0  # draws in the cell of rejected ones, below which chi2 is none
+SURPLUS = 40.0  # of them: so many above ten times what is expected have a probability < 1e-60
 HEAVIEST = 1.02  # a mass that cells can stand
 
 
@@ -50,16 +61,16 @@ def claims(case: Case) -> Iterator[Claim]:
             property=PROPERTY,
         )
     # one lobe of several can be wrong where only all of them together tell
-    ends = parameters.at_ends(case) if _draws.chooses(case, case.theta_o_deg[0]) else ()
+    ends = parameters.at_extremes(case) if _draws.chooses(case, case.theta_o_deg[0]) else ()
     for other, theta in (*parameters.elsewhere(case), *ends):
         cells = tables(other, theta)
         if 0.0 < cells(COARSE).tables[2] < HEAVIEST:  # else see `pdf`
             yield _elsewhere(other, theta, cells)
 
 
-def _elsewhere(case: Case, theta: float, cells: Any) -> FitClaim:
+def _elsewhere(case: Case, theta: float, cells: Tables) -> FitClaim:
     """The same with fewer draws and a wider tolerance, at other azimuths and parameters."""
-    tolerance = 2.0 * case.tolerated(TOLERANCE)
+    tolerance = WIDER * case.tolerated(TOLERANCE)
     measure = refined(case, theta, cells, tolerance, COARSE, FINE, FINEST)
     return FitClaim(
         "distance of draws from pdf",
@@ -70,14 +81,12 @@ def _elsewhere(case: Case, theta: float, cells: Any) -> FitClaim:
     )
 
 
-def tables(case: Case, theta: float) -> Any:
+def tables(case: Case, theta: float) -> Tables:
     """Cells by the size of their grid, each made once."""
     return functools.cache(functools.partial(Cells, case, theta))
 
 
-def refined(
-    case: Case, theta: float, cells: Any, tolerance: float, *sizes: tuple[int, int]
-) -> Any:
+def refined(case: Case, theta: float, cells: Tables, tolerance: float, *sizes: Size) -> Measure:
     """A measurement on finer grids for as long as draws look wrong on coarser ones."""
 
     def measure(plan: Plan, level: float) -> Fit:
@@ -99,7 +108,7 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     if _draws.density_integral(case, theta).missed > UNSURE:
         hidden = "a lobe of pdf lies where half vectors do not show it"
         return Fit(math.nan, math.inf, 1.0, 0, hidden)
-    n = min(math.ceil(DRAWS * plan.samples), MOST)
+    n = min(math.ceil(DRAWS * plan.samples), case.budget(MOST))
     place = (theta, case.phi_o_deg, *case.one)
     key = stream(plan.seed, case.model.name, NAME, *place, n)
     counts, expected = cells.counts(key, n, plan.threads), cells.probability
@@ -112,7 +121,7 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     return found._replace(distance=max(0.0, found.distance - 2.0 * cells.error))
 
 
-def _hint(counts: Any, expected: Any) -> str:
+def _hint(counts: Array, expected: Array) -> str:
     """Where draws and pdf part: horizon, distance from the lobe's centre, azimuth."""
     cells = expected[0] * float(counts.sum())
     lost, due = counts[-1] / counts.sum(), expected[-1]
@@ -129,7 +138,7 @@ def _hint(counts: Any, expected: Any) -> str:
     return f"draws are {kind} than pdf: {inner:.3g} of it at the centre, {outer:.3g} at the end"
 
 
-def judged(counts: Any, probability: Any, level: float) -> Fit:
+def judged(counts: Array, probability: Array, level: float) -> Fit:
     """Distance, upper bound and p-value of counts; a last cell hardly expected is merged.
 
     chi2 of draws at distance d is noncentral with parameter N d^2: the upper bound is the distance
@@ -138,8 +147,8 @@ def judged(counts: Any, probability: Any, level: float) -> Fit:
     from scipy.special import chdtrc, chndtrinc
 
     n = float(counts.sum())
-    if probability[-1] * n < 10.0:
-        if counts[-1] > 40.0 + 10.0 * probability[-1] * n:
+    if probability[-1] * n < EXPECTED:
+        if counts[-1] > SURPLUS + 10.0 * probability[-1] * n:
             return Fit(math.sqrt(counts[-1] / n), math.inf, 0.0, int(n))
         counts, probability = counts[:-1], probability[:-1] / probability[:-1].sum()
     used = float(counts.sum())

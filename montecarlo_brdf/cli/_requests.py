@@ -27,6 +27,7 @@ class Terms(NamedTuple):
     samples: int = SAMPLES
     seed: int = 0
     tolerance: float | None = None
+    effort: float = 1.0
 
 
 class Request(NamedTuple):

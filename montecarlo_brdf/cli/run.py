@@ -1,14 +1,14 @@
 """brdf-check run"""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Read, listed
+from montecarlo_brdf.cli._values import Number, Read, listed
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 INTERRUPTED = 130
 #: options that stand above a project's file if they are given
-ABOVE = {"samples", "points", "tolerance", "seed"}
+ABOVE = {"samples", "points", "tolerance", "seed", "effort"}
 #: options that only make sense with --model
 LOCAL = {
     "assignments": "-p",
@@ -55,6 +55,8 @@ Examples:
               help="A model that it must equal in values. [--against ggx]")
 @click.option("--max-time", type=float, metavar="SECONDS",
               help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
+@click.option("--effort", type=Number("in (0, 1]"), default=1.0, show_default=True,
+              help="Share of the pairs, places and nodes that checks look at. [--effort 0.1]")
 @click.option("--baseline", type=click.Path(path_type=Path), metavar="REPORT.json",
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
               "[--baseline main.json]")  # fmt: skip
@@ -69,6 +71,7 @@ def command(
     phi_o: float,
     against: str | None,
     max_time: float | None,
+    effort: float,
     baseline: Path | None,
     sampling: _options.Sampling,
     output: _options.Output,
@@ -94,10 +97,10 @@ def command(
         threads = keywords.pop("threads")
         other = loading.load(against) if against else None
         chosen = None if isinstance(names, str) else tuple(names)
-        terms = Terms(chosen, theta_o, phi_o, other, **keywords)
+        terms = Terms(chosen, theta_o, phi_o, other, effort=effort, **keywords)
         requests = [request(loading.load(one), assignments, terms) for one in models_of(spec)]
     else:
-        project = asked_project(config, sampling)
+        project = asked_project(config, {**sampling._asdict(), "effort": effort})
         requests, threads = project.requests, sampling.threads
         max_time = max_time or project.max_time
         output = output._replace(inconclusive=output.inconclusive or project.inconclusive)
@@ -107,7 +110,7 @@ def command(
     return finish(report, output, earlier)
 
 
-def asked_project(config: Path | None, sampling: _options.Sampling) -> Project:
+def asked_project(config: Path | None, options: Mapping[str, object]) -> Project:
     """The project of --config, or of the folder one stands in."""
     from montecarlo_brdf.cli import _project
 
@@ -120,7 +123,7 @@ def asked_project(config: Path | None, sampling: _options.Sampling) -> Project:
     local = [flag for name, flag in LOCAL.items() if name in given]
     if local:
         raise UserError(f"{', '.join(local)} needs --model: {path} says what to check of which")
-    return _project.read(path, {k: v for k, v in sampling._asdict().items() if k in given & ABOVE})
+    return _project.read(path, {k: v for k, v in options.items() if k in given & ABOVE})
 
 
 def given_options() -> set[str]:

@@ -32,3 +32,4 @@ class Plan(NamedTuple):
     target_error: float | None = None  # relative; None: just the samples asked for
     method: str = Choice.GIVEN  # AUTO also without a target
     sums: PartialSums | None = None  # where long jobs keep how far they are
+    effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at

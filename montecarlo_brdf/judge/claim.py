@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
 
 #: Tolerances are stated, not discovered: docs/statistics.md.
@@ -100,7 +101,7 @@ class ExactClaim:
 
     quantity: str
     where: Mapping[str, Any]
-    bound: str  # "at most", "at least" or "equal"
+    bound: Bound
     expected: Reference
     tolerance: float  # absolute
     evaluate: Callable[[], Exact]
@@ -163,13 +164,14 @@ class MeanClaim:
 
     quantity: str
     where: Mapping[str, Any]
-    bound: str  # "at most" or "equal"
+    bound: Bound
     expected: Reference | None
     tolerance: float  # absolute
     measure: Callable[[Plan], list[Measurement]]
     property: str | None = Property.REFERENCE
     unit: Mapping[str, float] = field(default_factory=dict)  # what the hint compares the value with
-    cause: str | None = None  # the hint where no number tells
+    diagnosis: Callable[[], str | None] | None = None  # the hint, asked for first
+    cause: Callable[[], str] | None = None  # the hint where no number tells
     #: asked, for a seed, where samples leave the claim open
     fallback: Callable[[int], Measurement] | None = None
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 import math
 
 from montecarlo_brdf.judge.claim import Exact, ExactClaim, Limit
-from montecarlo_brdf.judge.finding import Bound, Finding, Verdict
-from montecarlo_brdf.judge.looks import beyond
+from montecarlo_brdf.judge.finding import Finding, Verdict
+from montecarlo_brdf.judge.looks import beyond, excess
 
 
 def exact_finding(claim: ExactClaim, known: str | None) -> Finding:
@@ -39,8 +39,7 @@ def _exact_verdict(claim: ExactClaim, found: Exact) -> Verdict:
         return Verdict.INCONCLUSIVE
     if not math.isfinite(found.value):
         return Verdict.FAIL
-    over = found.value - claim.expected.value
-    over = {Bound.AT_MOST: over, Bound.AT_LEAST: -over, Bound.EQUAL: abs(over)}[Bound(claim.bound)]
+    over = excess(claim.bound, found.value - claim.expected.value)
     slack = found.error + claim.expected.error
     if over + slack <= claim.tolerance:
         return Verdict.PASS

@@ -1,7 +1,9 @@
 """The likely cause of a refuted mean: numbers that name the mistake behind them."""
+
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from montecarlo_brdf.judge.claim import MeanClaim
 from montecarlo_brdf.judge.finding import Bound
@@ -25,6 +27,13 @@ NOT_FINITE_WEIGHT = (
 CLOSE = 2e-3
 
 
+class Cause(NamedTuple):
+    """A likely cause in words; everywhere: it holds for all values alike, no other is sought."""
+
+    text: str
+    everywhere: bool = False
+
+
 def hint(claim: MeanClaim, value: float, only_own: bool = False) -> str | None:
     """A sentence that names the likely cause of a refuted claim, if the number tells.
 
@@ -32,16 +41,19 @@ def hint(claim: MeanClaim, value: float, only_own: bool = False) -> str | None:
     """
     if not math.isfinite(value):
         return NOT_FINITE_WEIGHT if only_own else NOT_FINITE
+    if claim.diagnosis and (told := claim.diagnosis()):
+        return told
     units, close = dict(claim.unit), CLOSE
+    expected = claim.expected.value if claim.expected else 0.0
     if claim.bound == Bound.AT_MOST:  # what should reflect 1; a search for the worst is coarse
-        units, close = {"1": 1.0, **units}, 5.0 * CLOSE
-    if claim.expected is not None and claim.bound == Bound.EQUAL and claim.expected.value:
-        units = {"expected": claim.expected.value, **units}
+        units, close = {"1": expected, **units}, 5.0 * CLOSE
+    elif expected:
+        units = {"expected": expected, **units}
     for name, unit in units.items():
-        cause = factor_named(value / unit, close)
+        cause = factor_named(value / unit, close) if unit else None
         if cause:
             return f"{_subject(claim)} / {name} = {cause}"
-    return claim.cause
+    return claim.cause() if claim.cause else None
 
 
 def _subject(claim: MeanClaim) -> str:

@@ -1,7 +1,7 @@
 """Looks at growing sample sizes, and what lies beyond a tolerance."""
 from __future__ import annotations
 
-from montecarlo_brdf.judge.finding import Verdict
+from montecarlo_brdf.judge.finding import Bound, Verdict
 
 FIRST_LOOK = 1 << 14
 GROWTH = 4
@@ -17,6 +17,13 @@ def looks(most: int) -> list[int]:
         sizes.append(size)
         size *= GROWTH
     return [*sizes, most]
+
+
+def excess(bound: str, difference: float) -> float:
+    """How far a number that differs so much from what is expected lies outside its bound."""
+    if bound == Bound.EQUAL:
+        return abs(difference)
+    return -difference if bound == Bound.AT_LEAST else difference
 
 
 def beyond(deviation: float, slack: float, tolerance: float) -> Verdict:

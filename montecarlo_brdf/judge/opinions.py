@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from montecarlo_brdf import student
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import MeanClaim, Reference
+from montecarlo_brdf.judge.claim import Kind, MeanClaim, Reference
 from montecarlo_brdf.judge.finding import Bound, Verdict
-from montecarlo_brdf.judge.looks import beyond
+from montecarlo_brdf.judge.looks import beyond, excess
 from montecarlo_brdf.statistics import FLOOR
 
 #: how often a deviation of the size `resolves` may escape
@@ -70,10 +70,9 @@ def _verdict(
     if expected is None:
         if best is None or m is best:
             return Verdict.PASS
-        expected = Reference(best.estimate.mean, best.half_width(level), "", "")
+        expected = Reference(best.estimate.mean, best.half_width(level), Kind.SAME_F, "")
     slack = half + expected.error
-    over = value - expected.value
-    over = over if claim.bound == Bound.AT_MOST else abs(over)
+    over = excess(claim.bound, value - expected.value)
     held = over + slack <= claim.tolerance
     return Verdict.PASS if held else beyond(over, slack, claim.tolerance)
 
@@ -107,8 +106,7 @@ def _hopeless(claim: MeanClaim, o: Opinion, most: int) -> bool:
         return o.measurement.needs > most
     if expected is None or needed(claim, o, FASTEST) <= most:
         return False
-    over = e.mean - expected.value
-    over = over if claim.bound == Bound.AT_MOST else abs(over)
+    over = excess(claim.bound, e.mean - expected.value)
     in_the_end = o.half_width * math.sqrt(e.samples / most)
     return over + SURE * e.stderr <= claim.tolerance + expected.error + in_the_end
 

@@ -52,6 +52,7 @@ def run(
     seed: int = 0,
     threads: int | None = None,
     tolerance: float | None = None,
+    effort: float = 1.0,
     deadline: Deadline | None = None,
     progress: Progress | None = None,
 ) -> Report:
@@ -64,8 +65,10 @@ def run(
     searched over their range, also where `p` is given. against: a model that it must equal.
     points: "sobol", "independent", "stratified" or "lattice". samples: the most that a claim may
     take, 1 to 2^40. seed: 0 to 2^64 - 1. threads: 1 to 1024, None for all processors; no result
-    depends on it. tolerance: in [0, 1), instead of each claim's own. deadline: no claim is begun
-    after it, and what is left is inconclusive. progress: is called with the fraction done.
+    depends on it. tolerance: in [0, 1), instead of each claim's own. effort: the share, in (0, 1],
+    of the pairs, places and nodes that checks look at: a look in passing, which may miss what a
+    whole one finds. deadline: no claim is begun after it, and what is left is inconclusive.
+    progress: is called with the fraction done.
 
     Returns a Report with one Result per parameter set and check; an interruption returns what was
     found so far, and says so in `measured`. Raises UserError for a bad value, ModelError if the
@@ -74,15 +77,14 @@ def run(
     asked = chosen("check", names or "all", checks.names())
     asked = [name for name in checks.names() if name in asked]
     angles = [check_theta(a) for a in theta_o_deg]
-    settings = Settings(points, samples, seed, threads, tolerance)
+    settings = Settings(points, samples, seed, threads, tolerance, effort=effort)
     started = time.perf_counter()
     groups = []
     for one in parameter_sets(model, p):
         variant = model.of(one)
         free = searched(variant, dict.fromkeys(fixed)) if p is None or fixed else ()
-        case = Case(
-            variant, one, angles, phi_o_deg, None, tolerance, free, against=against, seed=seed
-        )
+        where = variant, one, angles, phi_o_deg, None, tolerance, free
+        case = Case(*where, against=against, seed=seed, effort=effort)
         groups.append([Task(Question(n, case, checks.find(n).claims)) for n in asked])
     why, interrupted = "--max-time was over", False
     try:

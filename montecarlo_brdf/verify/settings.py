@@ -32,6 +32,7 @@ class Settings:
     target_error: float | None = None  # relative
     method: str | None = None  # a Choice; None: AUTO with a target
     sums: PartialSums | None = None
+    effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at
 
     def __post_init__(self) -> None:
         if self.points not in SETS:
@@ -45,6 +46,8 @@ class Settings:
         adaptive.check_plan(self.plan)
         if tolerance is not None and not 0.0 <= tolerance < 1.0:
             raise UserError(f"tolerance must be a number in [0, 1), not {tolerance}")
+        if isinstance(self.effort, bool) or not 0.0 < self.effort <= 1.0:
+            raise UserError(f"effort must be a number in (0, 1], not {self.effort}")
 
     @property
     def plan(self) -> Plan:
@@ -57,19 +60,22 @@ class Settings:
             target_error=self.target_error,
             method=self.method or (Choice.GIVEN if self.target_error is None else Choice.AUTO),
             sums=self.sums,
+            effort=self.effort,
         )
 
     def told(self) -> dict[str, Any]:
         """What results depend on, for a report; the number of threads is not among it."""
         plan = self.plan
-        told = {"points": plan.points, "samples": plan.samples, "seed": plan.seed}
+        told: dict[str, Any] = {"points": plan.points, "samples": plan.samples, "seed": plan.seed}
+        if plan.effort != 1.0:
+            told["effort"] = plan.effort
         if plan.target_error is not None or plan.method != Choice.GIVEN:
             told |= {"target_error": plan.target_error, "method": plan.method}
         return told
 
     def options(self, default: Settings) -> list[str]:
-        """What of points, samples and seed a command line must say, as it is not the default."""
-        names = ("points", "samples", "seed")
+        """What of points, samples, seed and effort a command line must say: no default."""
+        names = ("points", "samples", "seed", "effort")
         said = {n: getattr(self, n) for n in names if getattr(self, n) != getattr(default, n)}
         return [word for name, value in said.items() for word in (f"--{name}", str(value))]
 

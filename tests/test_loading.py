@@ -1,0 +1,56 @@
+"""Model files as users write them: what is loaded and what is told."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+import montecarlo_brdf as mb
+
+HELPER = """
+import math
+from dataclasses import dataclass
+
+
+@dataclass
+class Light:
+    x: float = 1.0
+
+
+def f(wo, wi, p):
+    return 0.5 / math.pi
+"""
+MISSPELT = """
+import math
+from typing import NamedTuple
+
+
+class Params(NamedTuple):
+    albedo: float = 0.5
+
+
+domain = {"albdo": (0.0, 1.0)}
+
+
+def f(wo, wi, p):
+    return p.albedo / math.pi
+"""
+
+
+def written(tmp_path: Path, text: str) -> str:
+    path = tmp_path / "my_brdf.py"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def test_a_file_with_a_dataclass_is_loaded(tmp_path: Path) -> None:
+    before = set(sys.modules)
+    assert mb.load(written(tmp_path, HELPER)).f is not None
+    assert "my_brdf" not in set(sys.modules) - before
+
+
+def test_a_domain_of_no_parameter_is_told(tmp_path: Path) -> None:
+    with pytest.raises(mb.ModelError, match="did you mean 'albedo'"):
+        mb.load(written(tmp_path, MISSPELT))
