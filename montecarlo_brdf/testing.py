@@ -24,7 +24,7 @@ from montecarlo_brdf.judge.finding import Policy, Report, Verdict
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.model_file import build
 from montecarlo_brdf.report.sentences import case, failures
-from montecarlo_brdf.verify.results import INTERRUPTED
+from montecarlo_brdf.verify.question import INTERRUPTED
 from montecarlo_brdf.verify.run import run
 from montecarlo_brdf.verify.supervision import Deadline
 
@@ -92,11 +92,9 @@ def assert_reciprocal(brdf: object, p: Parameters = None, **options: Unpack[Opti
 
 
 def assert_furnace(
-    brdf: object,
-    p: Parameters = None,
-    expected: float | Callable[..., float] | None = None,
+    brdf: object, p: Parameters = None, expected: float | Callable[..., float] | None = None,
     **options: Unpack[Options],
-) -> Report:
+) -> Report:  # fmt: skip
     """The albedo is at most 1 and what it should be.
 
     expected: a number, or a function of (cos_theta_o, p); None for the model's own reference.
@@ -155,14 +153,9 @@ def assert_converges(
 
 
 def assert_checks(
-    brdf: object,
-    p: Parameters = None,
-    checks: tuple[str, ...] | None = None,
-    *,
-    inconclusive: str = Policy.FAIL,
-    max_time: float = math.inf,
-    **options: Unpack[Terms],
-) -> Report:
+    brdf: object, p: Parameters = None, checks: tuple[str, ...] | None = None, *,
+    inconclusive: str = Policy.FAIL, max_time: float = math.inf, **options: Unpack[Terms],
+) -> Report:  # fmt: skip
     """Several checks at once, or all of them.
 
     brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,

@@ -11,7 +11,7 @@ from montecarlo_brdf.cli._values import parameter_sets
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.sentences import called
-from montecarlo_brdf.verify.results import Progress, shown_parameters
+from montecarlo_brdf.verify.question import Progress, shown_parameters
 from montecarlo_brdf.verify.run import ANGLES, SAMPLES, run
 from montecarlo_brdf.verify.supervision import Deadline
 
@@ -53,21 +53,14 @@ class Request(NamedTuple):
         return self._replace(terms=self.terms._replace(names=names))
 
     def run(
-        self,
-        deadline: Deadline | None = None,
-        threads: int | None = None,
+        self, deadline: Deadline | None = None, threads: int | None = None,
         progress: Progress | None = None,
-    ) -> Report:
+    ) -> Report:  # fmt: skip
         """The report of `verify.run`."""
         return run(
-            self.model,
-            self.p,
-            fixed=self.fixed,
-            deadline=deadline,
-            threads=threads,
-            progress=progress,
-            **self.terms._asdict(),
-        )
+            self.model, self.p, fixed=self.fixed, deadline=deadline, threads=threads,
+            progress=progress, **self.terms._asdict(),
+        )  # fmt: skip
 
 
 def request(model: Model, assignments: Sequence[str], terms: Terms) -> Request:

@@ -33,15 +33,9 @@ Examples:
 @_options.seed(help="Of the random directions: a number, or random (printed). [--seed 7]")
 @_options.output_options
 def command(
-    model: str,
-    other: str,
-    assignments: tuple[str, ...],
-    theta_o: list[float],
-    phi_o: float,
-    tolerance: float | None,
-    seed: int,
-    output: _options.Output,
-) -> int:
+    model: str, other: str, assignments: tuple[str, ...], theta_o: list[float], phi_o: float,
+    tolerance: float | None, seed: int, output: _options.Output,
+) -> int:  # fmt: skip
     """Do two models agree? The columns estimate and expected are A's and B's.
 
     f is compared over thousands of pairs of directions, the albedo A(wo) and the reverse albedo
@@ -55,15 +49,9 @@ def command(
     first, second = loading.load(model), loading.load(other)
     with progress(f"compare {first.name} {second.name}") as update:
         report = compare(
-            first,
-            second,
-            pairs(first, second, assignments),
-            theta_o,
-            phi_o_deg=phi_o,
-            tolerance=tolerance,
-            seed=seed,
-            progress=update,
-        )
+            first, second, pairs(first, second, assignments), theta_o, phi_o_deg=phi_o,
+            tolerance=tolerance, seed=seed, progress=update,
+        )  # fmt: skip
     return _options.deliver(report, output)
 
 

@@ -34,17 +34,9 @@ Examples:
 @_options.output_options
 @_options.plot(help="Error against samples, log-log, as PNG, SVG or PDF. [--plot error.png]")
 def command(
-    spec: str,
-    assignments: tuple[str, ...],
-    theta_o: float,
-    phi_o: float,
-    sampler: str | list[str],
-    points: str | list[str],
-    samples: int,
-    seed: int,
-    threads: int | None,
-    output: _options.Output,
-) -> int:
+    spec: str, assignments: tuple[str, ...], theta_o: float, phi_o: float, sampler: str | list[str],
+    points: str | list[str], samples: int, seed: int, threads: int | None, output: _options.Output,
+) -> int:  # fmt: skip
     """How fast does the error fall with the number of samples, and is that what theory says?
 
     One claim per sampler and point set: the slope of log error against log N. Tells the samples
@@ -59,15 +51,7 @@ def command(
     model = loading.load(spec)
     with progress(f"converge {model.name}") as update:
         report = converge(
-            model,
-            parameter_sets(model, assignments),
-            theta_o,
-            phi_o_deg=phi_o,
-            sampler=sampler,
-            points=points,
-            samples=samples,
-            seed=seed,
-            threads=threads,
-            progress=update,
-        )
+            model, parameter_sets(model, assignments), theta_o, phi_o_deg=phi_o, sampler=sampler,
+            points=points, samples=samples, seed=seed, threads=threads, progress=update,
+        )  # fmt: skip
     return _options.deliver(report, output)

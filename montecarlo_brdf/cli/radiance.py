@@ -44,16 +44,10 @@ Examples:
     help="L_o against angle with error bars and truth, as PNG, SVG or PDF. [--plot r.png]"
 )
 def command(
-    scene: Path | None,
-    spec: str | None,
-    assignments: tuple[str, ...],
-    environment: str | None,
-    theta_o: list[float] | None,
-    explain: bool,
-    no_skip: bool,
-    sampling: _options.Sampling,
+    scene: Path | None, spec: str | None, assignments: tuple[str, ...], environment: str | None,
+    theta_o: list[float] | None, explain: bool, no_skip: bool, sampling: _options.Sampling,
     output: _options.Output,
-) -> int:
+) -> int:  # fmt: skip
     """What radiance does a surface reflect towards the viewer, and is that what theory says?
 
     SCENE is a TOML file (docs/scenes.md). Per view and channel: L_o equals its analytic value or

@@ -56,18 +56,10 @@ Examples:
 @_options.seed(help="A number, or random. [--seed 7]")
 @_options.threads(help="Threads; results do not depend on it. [--threads 1]")
 def command(
-    scene: Path | None,
-    outputs: tuple[Path, ...],
-    spec: str | None,
-    assignments: tuple[str, ...],
-    environment: str | None,
-    furnace: bool,
-    size: int,
-    samples: int,
-    camera: str | None,
-    seed: int,
+    scene: Path | None, outputs: tuple[Path, ...], spec: str | None, assignments: tuple[str, ...],
+    environment: str | None, furnace: bool, size: int, samples: int, camera: str | None, seed: int,
     threads: int | None,
-) -> int:
+) -> int:  # fmt: skip
     """Shade a sphere per pixel from the estimators, and say how exact the picture is.
 
     With --furnace a second panel shows the signed difference to the light from -10 % to +10 %. A
@@ -78,8 +70,7 @@ def command(
     from montecarlo_brdf.report.pictures import spheres
     from montecarlo_brdf.scene.render import render
     from montecarlo_brdf.vectors import from_degrees
-    from montecarlo_brdf.verify.results import part_of
-    from montecarlo_brdf.verify.settings import all_threads
+    from montecarlo_brdf.verify.question import all_threads, part_of
 
     for path in outputs:
         check_writable(path)
@@ -101,14 +92,10 @@ def command(
     with progress("render") as update:
         for k, (label, shown) in enumerate(scenes):
             one = render(
-                shown.under_constant_light(FURNACE) if furnace else shown,
-                size=size,
-                samples=samples,
-                seed=seed,
-                threads=threads or all_threads(),
-                camera=viewer,
+                shown.under_constant_light(FURNACE) if furnace else shown, size=size,
+                samples=samples, seed=seed, threads=threads or all_threads(), camera=viewer,
                 progress=part_of(update, k, len(scenes)),
-            )
+            )  # fmt: skip
             made.append(one)
             click.echo(_said(label, one, furnace))
     labels = [label for label, _ in scenes]
@@ -171,7 +158,7 @@ def _columns(listed: Mapping[str, Sequence[object]]) -> int:
 
 def _label(spec: str, assignments: Sequence[str], model: Model, p: NamedTuple) -> str:
     """The model, and the parameters and choices that were given."""
-    from montecarlo_brdf.verify.results import shown_parameters
+    from montecarlo_brdf.verify.question import shown_parameters
 
     values = shown_parameters(model, p)
     names = [a.partition("=")[0].strip() for a in assignments]

@@ -63,19 +63,10 @@ Examples:
 @_options.sampling_options
 @_options.output_options
 def command(
-    spec: str | None,
-    assignments: tuple[str, ...],
-    config: Path | None,
-    names: str | list[str],
-    theta_o: list[float],
-    phi_o: float,
-    against: str | None,
-    max_time: float | None,
-    effort: float,
-    baseline: Path | None,
-    sampling: _options.Sampling,
-    output: _options.Output,
-) -> int:
+    spec: str | None, assignments: tuple[str, ...], config: Path | None, names: str | list[str],
+    theta_o: list[float], phi_o: float, against: str | None, max_time: float | None, effort: float,
+    baseline: Path | None, sampling: _options.Sampling, output: _options.Output,
+) -> int:  # fmt: skip
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
     Without --model: the models and cases of the project's brdf-check.toml (docs/ci.md)."""
@@ -136,7 +127,7 @@ def given_options() -> set[str]:
 def gather(requests: Sequence[Request], threads: int | None, deadline: Deadline) -> Report:
     """One report over all requests, also when it is interrupted."""
     from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.verify.results import merged, part_of
+    from montecarlo_brdf.verify.question import merged, part_of
 
     reports: list[Report] = []
     try:

@@ -45,15 +45,10 @@ Examples:
 @_options.plot(help="Heat maps of the error over angle and roughness. [--plot digits.png]")
 @_options.output_options
 def command(
-    spec: str | None,
-    compare: tuple[str, str] | None,
-    assignments: tuple[str, ...],
-    precisions: list[str] | None,
-    max_error: float | None,
-    quick: bool,
-    at: str | None,
+    spec: str | None, compare: tuple[str, str] | None, assignments: tuple[str, ...],
+    precisions: list[str] | None, max_error: float | None, quick: bool, at: str | None,
     output: _options.Output,
-) -> int:
+) -> int:  # fmt: skip
     """Run the model's own source in half, single, double and long double precision, and compare.
 
     The error of f is what the model's arithmetic adds to the rounding of its inputs, relative to f

@@ -227,11 +227,9 @@ def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: Opinions) ->
     if overall(opinions) != Verdict.FAIL:
         return opinions
     fresh = plan._replace(
-        points=CONFIRMING_POINTS,
-        replicates=CONFIRMING_REPLICATES,
-        samples=GROWTH * plan.samples,
+        points=CONFIRMING_POINTS, replicates=CONFIRMING_REPLICATES, samples=GROWTH * plan.samples,
         seed=plan.seed + FRESH,
-    )
+    )  # fmt: skip
     again = judged(claim, claim.measure(fresh), level)
     sure = {o.measurement.estimator for o in again if o.verdict == Verdict.FAIL}
     return changed(

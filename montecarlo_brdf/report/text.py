@@ -123,28 +123,21 @@ def _check(result: Result) -> Row:
     known = f.expected is not None and math.isfinite(f.value)
     nothing = f.verdict == Verdict.PASS and f.as_wished
     return (
-        result.check,
-        str(sum(g.verdict != Verdict.SKIPPED for g in result.findings)),
-        f.quantity if known else "",
-        f.number if known else "",
-        bound(f) if known else "",
-        "" if nothing else place(f, NO_BREAK),
-        loud(f.verdict),
-    )
+        result.check, str(sum(g.verdict != Verdict.SKIPPED for g in result.findings)),
+        f.quantity if known else "", f.number if known else "", bound(f) if known else "",
+        "" if nothing else place(f, NO_BREAK), loud(f.verdict),
+    )  # fmt: skip
 
 
 def _finding(f: Finding, places: list[str]) -> Row:
     sign = "<= " if f.bound == Bound.AT_MOST else ""
     return (
-        *(coordinate(k, f.where.get(k)) for k in places),
-        f.quantity,
-        f.number,
+        *(coordinate(k, f.where.get(k)) for k in places), f.quantity, f.number,
         "" if f.expected is None else f"{sign}{f.expected:.8g}",
         "" if f.tolerance is None else f"{f.tolerance:.1e}",
-        "" if f.resolves is None else f"{f.resolves:.1e}",
-        f.estimator or "",
+        "" if f.resolves is None else f"{f.resolves:.1e}", f.estimator or "",
         f.verdict if f.verdict == Verdict.PASS else f.verdict.upper(),
-    )
+    )  # fmt: skip
 
 
 def _attention(result: Result, verbose: bool, about: str = "") -> Iterator[str]:
@@ -183,17 +176,13 @@ def _precision(result: Result, measured: Mapping[str, Any]) -> Row:
     verdicts = {f.verdict for f in result.findings if f.where["precision"] == measured["name"]}
     verdict = worst(verdicts - {Verdict.PASS} or verdicts)  # one that is known is told
     return (
-        measured["name"],
-        str(measured["points"]),
-        f"{measured['worst']:.1e}",
-        f"{measured['worst'] / eps:.2g}",
-        f"{measured['allowed']:.0e}",
+        measured["name"], str(measured["points"]), f"{measured['worst']:.1e}",
+        f"{measured['worst'] / eps:.2g}", f"{measured['allowed']:.0e}",
         f"{measured['with_inputs']:.1e}",
         *(str(measured[kind]) for kind in ("nan", "inf", "negative", "flushed")),
-        f"{name} {sharpest}" if name else "",
-        "" if length is None else f"{length / eps:.1f} eps",
+        f"{name} {sharpest}" if name else "", "" if length is None else f"{length / eps:.1f} eps",
         verdict if verdict == Verdict.PASS else verdict.upper(),
-    )
+    )  # fmt: skip
 
 
 def _broken(result: Result) -> Iterator[str]:

@@ -22,28 +22,22 @@ from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.report.sentences import called
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.furnace import ANGLES
-from montecarlo_brdf.verify.results import (
+from montecarlo_brdf.verify.question import (
     Progress,
     Question,
+    Settings,
     answered,
     probed,
     reported,
     shown_parameters,
 )
-from montecarlo_brdf.verify.settings import Settings
 
 
 def compare(
-    model: Model,
-    other: Model,
-    cases: Sequence[tuple[Any, Any]] | None = None,
-    theta_o_deg: Sequence[float] = ANGLES,
-    *,
-    phi_o_deg: float = 0.0,
-    tolerance: float | None = None,
-    seed: int = 0,
-    progress: Progress | None = None,
-) -> Report:
+    model: Model, other: Model, cases: Sequence[tuple[Any, Any]] | None = None,
+    theta_o_deg: Sequence[float] = ANGLES, *, phi_o_deg: float = 0.0,
+    tolerance: float | None = None, seed: int = 0, progress: Progress | None = None,
+) -> Report:  # fmt: skip
     """Whether two models agree: f over thousands of pairs of directions, A(wo) and R(wi) by
     quadrature with error bounds.
 
@@ -91,21 +85,15 @@ def claims(case: Case, other: Model, q: NamedTuple) -> Iterator[ExactClaim]:
 
 
 def _albedo(
-    case: Case,
-    other: Model,
-    pair: tuple[Any, Any],
-    theta: float,
-    reverse: bool,
+    case: Case, other: Model, pair: tuple[Any, Any], theta: float, reverse: bool,
     channel: dict[str, int],
-) -> ExactClaim:
+) -> ExactClaim:  # fmt: skip
     fixed = from_degrees(theta, case.phi_o_deg)
     value, error = quadrature(other, pair[1], fixed, reverse)
     place = {f"theta_{'i' if reverse else 'o'}_deg": theta, **channel}
     return ExactClaim(
-        "R" if reverse else "A",
-        case.where(**place),
-        Bound.EQUAL,
+        "R" if reverse else "A", case.where(**place), Bound.EQUAL,
         Reference(value, error, Kind.OTHER_MODEL, other.name),
         case.tolerated(AGREEMENT_TOLERANCE) * abs(value),
         lambda: Exact(*quadrature(case.model, pair[0], fixed, reverse)),
-    )
+    )  # fmt: skip

@@ -30,16 +30,16 @@ from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import DIRECTIONS, Sampler
 from montecarlo_brdf.sampling.points import SETS
-from montecarlo_brdf.verify.results import (
+from montecarlo_brdf.verify.question import (
     Progress,
     Question,
     Sets,
+    Settings,
     answered,
     chosen,
     parameter_sets,
     reported,
 )
-from montecarlo_brdf.verify.settings import Settings
 
 NAME = "convergence"
 SAMPLES = 1 << 21  # per level, over all randomisations
@@ -63,18 +63,11 @@ TARGETS = (1e-3, 1e-6, 1e-9)
 
 
 def converge(
-    model: Model,
-    p: Sets = None,
-    theta_o_deg: float = 60.0,
-    *,
-    phi_o_deg: float = 0.0,
-    sampler: str | Sequence[str] = "all",
-    points: str | Sequence[str] = "all",
-    samples: int = SAMPLES,
-    seed: int = 0,
-    threads: int | None = None,
+    model: Model, p: Sets = None, theta_o_deg: float = 60.0, *, phi_o_deg: float = 0.0,
+    sampler: str | Sequence[str] = "all", points: str | Sequence[str] = "all",
+    samples: int = SAMPLES, seed: int = 0, threads: int | None = None,
     progress: Progress | None = None,
-) -> Report:
+) -> Report:  # fmt: skip
     """How fast the error of A falls for each sampler and point set, against the claimed rate.
 
     model: from `load`. p: a parameter set of `model.parameters`, a list of them, or None for the
@@ -117,12 +110,9 @@ def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator
             rate = CLAIMS[_claimed_as(case, sampler, points)][0 if smooth else 1]
             curve = Curve(case, sampler, points, smooth, known.value, floor)
             yield SlopeClaim(
-                "slope",
-                {**case.where(theta_o_deg=theta), "sampler": sampler, "points": points},
-                Reference(rate, floor, known.kind, known.source),
-                SLACK,
-                curve.slope,
-            )
+                "slope", {**case.where(theta_o_deg=theta), "sampler": sampler, "points": points},
+                Reference(rate, floor, known.kind, known.source), SLACK, curve.slope,
+            )  # fmt: skip
 
 
 def reference_of(case: Case) -> Reference:
@@ -180,14 +170,10 @@ class Curve(NamedTuple):
         line = self.fitted(levels)
         fit = line or Line(math.nan, math.nan, math.nan, 1)
         found = Slope(
-            fit.slope,
-            fit.stderr,
-            fit.dof,
-            samples=levels[-1].samples if levels else 0,
-            levels=[_row(v) for v in levels],
-            note="",
+            fit.slope, fit.stderr, fit.dof, samples=levels[-1].samples if levels else 0,
+            levels=[_row(v) for v in levels], note="",
             finite=not any(math.isnan(v.error) for v in levels),
-        )
+        )  # fmt: skip
         return found._replace(note=self.note(found, levels, line))
 
     def levels(self, plan: Plan) -> list[Level]:

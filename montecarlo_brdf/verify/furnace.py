@@ -17,16 +17,17 @@ from montecarlo_brdf.estimate.samplers import SAMPLERS, samplers_of
 from montecarlo_brdf.files import check_writable, write_text
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.verify.results import (
+from montecarlo_brdf.verify.question import (
+    SAMPLES,
     Progress,
     Question,
     Sets,
+    Settings,
     answered,
     chosen,
     parameter_sets,
     reported,
 )
-from montecarlo_brdf.verify.settings import SAMPLES, Settings
 
 if TYPE_CHECKING:
     from montecarlo_brdf.estimate.partial_sums import PartialSums
@@ -35,23 +36,12 @@ ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0)
 
 
 def furnace(
-    model: Model,
-    p: Sets = None,
-    theta_o_deg: Sequence[float] | float = ANGLES,
-    *,
-    phi_o_deg: float = 0.0,
-    sampler: str | Sequence[str] = "all",
-    points: str = "sobol",
-    samples: int = SAMPLES,
-    seed: int = 0,
-    threads: int | None = None,
-    tolerance: float | None = None,
-    target_error: float | None = None,
-    method: str | None = None,
-    progress: Progress | None = None,
-    curve: bool = False,
-    sums: PartialSums | None = None,
-) -> Report:
+    model: Model, p: Sets = None, theta_o_deg: Sequence[float] | float = ANGLES, *,
+    phi_o_deg: float = 0.0, sampler: str | Sequence[str] = "all", points: str = "sobol",
+    samples: int = SAMPLES, seed: int = 0, threads: int | None = None,
+    tolerance: float | None = None, target_error: float | None = None, method: str | None = None,
+    progress: Progress | None = None, curve: bool = False, sums: PartialSums | None = None,
+) -> Report:  # fmt: skip
     """White furnace test: A(wo) equals its reference and is at most 1, at every angle.
 
     model: from `load`. p: a parameter set of `model.parameters`, a list of them, or None for the

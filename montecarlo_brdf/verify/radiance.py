@@ -20,25 +20,25 @@ from montecarlo_brdf.scene.claims import reversed_scene
 from montecarlo_brdf.scene.plan import ScenePlan
 from montecarlo_brdf.scene.scene import Scene, as_lobes
 from montecarlo_brdf.scene.standard import Standard, mend
-from montecarlo_brdf.verify.results import Progress, decided, probed, reported
-from montecarlo_brdf.verify.settings import SAMPLES, Settings, exactly
+from montecarlo_brdf.verify.question import (
+    SAMPLES,
+    Progress,
+    Settings,
+    decided,
+    exactly,
+    probed,
+    reported,
+)
 
 WEIGHT_ROUNDING = 1e-12  # weights like 0.1 + 0.2 + 0.7 add up to 1 only within rounding
 WEIGHTS = "sum of weights <= 1"
 
 
 def radiance(
-    scene: Scene,
-    *,
-    skip: bool = True,
-    energy: bool = True,
-    points: str = "sobol",
-    samples: int = SAMPLES,
-    seed: int = 0,
-    threads: int | None = None,
-    tolerance: float | None = None,
-    progress: Progress | None = None,
-) -> Report:
+    scene: Scene, *, skip: bool = True, energy: bool = True, points: str = "sobol",
+    samples: int = SAMPLES, seed: int = 0, threads: int | None = None,
+    tolerance: float | None = None, progress: Progress | None = None,
+) -> Report:  # fmt: skip
     """Reflected radiance L_o of a scene at all its views, per channel, with verdicts.
 
     scene: from `read_scene` or `scene_of`. skip: leave out what the scene does not need (never
@@ -58,13 +58,10 @@ def radiance(
             probed(lobe.model, p)
     plan = planning.make(scene, skip)
     findings = decided(
-        _claims(scene, plan, tolerance, skip, energy),
-        settings.plan,
-        _disclaims(scene),
-        functools.partial(_repeat, scene, settings, skip),
-        count=_count(scene, energy),
+        _claims(scene, plan, tolerance, skip, energy), settings.plan, _disclaims(scene),
+        functools.partial(_repeat, scene, settings, skip), count=_count(scene, energy),
         progress=progress,
-    )
+    )  # fmt: skip
     told = {
         "theta_o_deg": list(scene.view.theta_o_deg),
         "phi_o_deg": list(scene.view.phi_o_deg),
@@ -83,14 +80,10 @@ def _claims(
     for k, total in enumerate(scene_claims.weight_sums(scene)):
         exact = Exact(total, hint=None if total <= 1.0 else "reduce a weight")
         yield ExactClaim(
-            WEIGHTS,
-            {"channel": k} if scene.channels > 1 else {},
-            Bound.AT_MOST,
-            Reference(1.0, 0.0, Kind.BOUND, "lobes share the light that arrives"),
-            WEIGHT_ROUNDING,
-            functools.partial(_same, exact),
-            property=None,
-        )
+            WEIGHTS, {"channel": k} if scene.channels > 1 else {}, Bound.AT_MOST,
+            Reference(1.0, 0.0, Kind.BOUND, "lobes share the light that arrives"), WEIGHT_ROUNDING,
+            functools.partial(_same, exact), property=None,
+        )  # fmt: skip
     yield from scene_claims.claims(scene, plan, tolerance)
     if energy or scene.band:
         furnace = planning.make(scene.under_constant_light(1.0), skip)

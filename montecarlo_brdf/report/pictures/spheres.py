@@ -70,12 +70,9 @@ def kind_of(path: Path) -> str:
 
 
 def drawn(
-    kind: str,
-    spheres: Sequence[Sphere],
-    labels: Sequence[str],
-    light: float | None,
+    kind: str, spheres: Sequence[Sphere], labels: Sequence[str], light: float | None,
     columns: int | None = None,
-) -> bytes:
+) -> bytes:  # fmt: skip
     """A file of spheres, `columns` in a row: a picture, or their linear values side by side.
 
     light: radiance of the furnace they are in, or None.
