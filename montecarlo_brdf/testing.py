@@ -23,7 +23,7 @@ from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.judge.finding import Policy, Report, Verdict
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.model_file import build
-from montecarlo_brdf.report.sentences import case, failures
+from montecarlo_brdf.report.text import case, failures
 from montecarlo_brdf.verify.question import INTERRUPTED
 from montecarlo_brdf.verify.run import run
 from montecarlo_brdf.verify.supervision import Deadline

@@ -43,7 +43,7 @@ def test_the_file_shown_is_read(tmp_path: Path) -> None:
 def test_all_keys_formats_and_assertions_are_told() -> None:
     for key in (*_project.SHARED, "model", "params", "against", "max_time", "inconclusive"):
         assert f"`{key}`" in PAGE, key
-    for name in formats.names():
+    for name in formats.SUFFIXES:
         assert f"| `{name}` |" in PAGE, name
     python = block("python")
     compile(python, "docs/ci.md", "exec")

@@ -12,12 +12,12 @@ import click
 
 from montecarlo_brdf.cli._values import Number, Read, Whole, number, numbers, read_seed
 from montecarlo_brdf.errors import OutputError, UserError, unknown
-from montecarlo_brdf.files import check_writable, write_text
+from montecarlo_brdf.files import check_writable, write_bytes, write_text
 from montecarlo_brdf.judge.finding import Policy, Report, Verdict
 from montecarlo_brdf.report import formats
 
 TEXT = "text"
-FORMATS = (TEXT, *formats.names())
+FORMATS = (TEXT, *formats.SUFFIXES)
 Command = Callable[..., int]
 Option = Callable[[Command], Command]
 
@@ -170,9 +170,9 @@ def deliver(report: Report, output: Output) -> int:
     if policy:
         report.settings["inconclusive"] = policy
     if output.plot:
-        from montecarlo_brdf.cli._pictures import plot
+        from montecarlo_brdf.report import pictures
 
-        plot(report, output.plot)
+        write_bytes(output.plot, pictures.drawn(report, pictures.kind_of(output.plot)))
     for path, form in output._files().items():
         write_text(path, formats.render(report, form))
     if output.form != TEXT:

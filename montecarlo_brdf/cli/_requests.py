@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.cli._values import parameter_sets
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.report.sentences import called
+from montecarlo_brdf.report.text import called
 from montecarlo_brdf.verify.question import Progress, shown_parameters
 from montecarlo_brdf.verify.run import ANGLES, SAMPLES, run
 from montecarlo_brdf.verify.supervision import Deadline

@@ -53,7 +53,7 @@ def command(
     channel counts. There is no verdict.
     """
     from montecarlo_brdf import files, loading
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.report import bench as report
     from montecarlo_brdf.report.pictures import encoded, kind_of
     from montecarlo_brdf.verify.bench import bench

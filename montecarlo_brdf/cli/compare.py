@@ -42,7 +42,7 @@ def command(
     R(wi) by quadrature with error bounds. Parameters without -p have their defaults.
     """
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify.compare import compare
 
     output.check()

@@ -43,7 +43,7 @@ def command(
     needed for errors of 1e-3, 1e-6 and 1e-9; in brackets where that is extrapolated.
     """
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.cli._values import parameter_sets
     from montecarlo_brdf.verify.converge import converge
 

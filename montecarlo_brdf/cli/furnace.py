@@ -55,7 +55,7 @@ def command(
     is estimated by every sampler that can be trusted for the case.
     """
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.cli._values import models_of, parameter_sets
     from montecarlo_brdf.verify import furnace
     from montecarlo_brdf.verify.question import merged, part_of

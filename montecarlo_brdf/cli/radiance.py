@@ -53,7 +53,7 @@ def command(
     SCENE is a TOML file (docs/scenes.md). Per view and channel: L_o equals its analytic value or
     quadrature, and the surface's albedo is at most 1.
     """
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.judge.finding import Verdict
     from montecarlo_brdf.scene.read import with_views
     from montecarlo_brdf.verify.radiance import WEIGHTS, radiance

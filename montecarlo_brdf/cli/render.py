@@ -65,7 +65,7 @@ def command(
     With --furnace a second panel shows the signed difference to the light from -10 % to +10 %. A
     picture is no verdict: see `brdf-check furnace` and `brdf-check radiance`.
     """
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.files import check_writable, write_bytes
     from montecarlo_brdf.report.pictures import spheres
     from montecarlo_brdf.scene.render import render

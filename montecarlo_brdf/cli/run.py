@@ -126,7 +126,7 @@ def given_options() -> set[str]:
 
 def gather(requests: Sequence[Request], threads: int | None, deadline: Deadline) -> Report:
     """One report over all requests, also when it is interrupted."""
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify.question import merged, part_of
 
     reports: list[Report] = []

@@ -54,7 +54,7 @@ def command(
     The error of f is what the model's arithmetic adds to the rounding of its inputs, relative to f
     and beyond one rounding of the largest f seen from the same direction.
     """
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.cli._values import parameter_sets
     from montecarlo_brdf.stability.specimens import load
     from montecarlo_brdf.verify.stress import stress

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result
-from montecarlo_brdf.report.sentences import shown
+from montecarlo_brdf.report.text import shown
 
 NUMBERS = ("value", "stderr", "expected", "tolerance", "resolves", "samples")
 WORDS = ("estimator", "note", "hint", "reproduce")

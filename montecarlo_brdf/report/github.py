@@ -5,7 +5,7 @@ The same run writes the Markdown report into $GITHUB_STEP_SUMMARY where that is 
 from __future__ import annotations
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
-from montecarlo_brdf.report.sentences import case, explanation, statement, tally
+from montecarlo_brdf.report.text import case, explanation, statement, tally
 
 #: what is annotated, and how
 LEVELS = {

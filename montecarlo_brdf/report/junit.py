@@ -12,8 +12,7 @@ from collections import Counter
 from xml.etree import ElementTree
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
-from montecarlo_brdf.report.sentences import case, explanation, origin, place, statement
-from montecarlo_brdf.report.text import grouped
+from montecarlo_brdf.report.text import case, explanation, grouped, origin, place, statement
 
 OUTCOMES = {
     Verdict.FAIL: "failure",

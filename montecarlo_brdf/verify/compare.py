@@ -19,7 +19,7 @@ from montecarlo_brdf.judge.claim import (
 )
 from montecarlo_brdf.judge.finding import Bound, Report
 from montecarlo_brdf.model import Model, channels
-from montecarlo_brdf.report.sentences import called
+from montecarlo_brdf.report.text import called
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.furnace import ANGLES
 from montecarlo_brdf.verify.question import (

@@ -13,7 +13,7 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Property
-from montecarlo_brdf.report.sentences import place
+from montecarlo_brdf.report.text import place
 from montecarlo_brdf.scene import claims as scene_claims
 from montecarlo_brdf.scene import plan as planning
 from montecarlo_brdf.scene.claims import reversed_scene
