@@ -27,7 +27,7 @@ import atheris
 
 with atheris.instrument_imports(include=["montecarlo_brdf", "tomllib"]):
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli import _project, _values
+    from montecarlo_brdf.cli import _options, _project
     from montecarlo_brdf.errors import UserError
     from montecarlo_brdf.estimate.partial_sums import PartialSums
     from montecarlo_brdf.files import write_text
@@ -77,7 +77,7 @@ def _model_name(path: Path) -> None:
 
 def _parameters(path: Path) -> None:
     model = loading.load("ggx")
-    _values.parameter_sets(model, text(path.read_bytes()).split("\n"))
+    _options.parameter_sets(model, text(path.read_bytes()).split("\n"))
 
 
 def _sky(path: Path) -> None:

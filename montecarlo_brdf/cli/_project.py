@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from montecarlo_brdf import checks, loading
+from montecarlo_brdf.cli._options import numbers
 from montecarlo_brdf.cli._requests import Request, Terms, request
-from montecarlo_brdf.cli._values import numbers
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.judge.finding import Policy

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.cli._values import parameter_sets
+from montecarlo_brdf.cli._options import parameter_sets
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.text import called

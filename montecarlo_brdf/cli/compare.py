@@ -55,26 +55,18 @@ def command(
     return _options.deliver(report, output)
 
 
-def pairs(
-    model: Model, other: Model, assignments: Sequence[str]
-) -> list[tuple[Any, Any]]:
+def pairs(model: Model, other: Model, assignments: Sequence[str]) -> list[tuple[Any, Any]]:
     """Parameter sets of both for every combination; a value goes to whichever model knows it."""
-    from montecarlo_brdf.cli._values import axes
-
     names = {m: set(known(m)) for m in (model, other)}
     owner = lambda name: other if name in names[other] - names[model] else model  # noqa: E731
-    listed = axes(assignments, owner)
+    listed = _options.axes(assignments, owner)
     found = []
     for row in itertools.product(*listed.values()):
         values = dict(zip(listed, row, strict=True))
-        unknown = {n: v for n, v in values.items() if n not in names[model] | names[other]}
-        own = {n: v for n, v in values.items() if n in names[model]}
-        found.append(
-            (
-                model.parameters(**own, **unknown),
-                other.parameters(**{n: v for n, v in values.items() if n in names[other]}),
-            )
-        )
+        # a name that neither has is the first one's to complain about
+        own = {n: v for n, v in values.items() if n in names[model] or n not in names[other]}
+        theirs = {n: v for n, v in values.items() if n in names[other]}
+        found.append((model.parameters(**own), other.parameters(**theirs)))
     return found
 
 
@@ -82,11 +74,6 @@ def known(model: Model) -> list[str]:
     """Names of a model's parameters and choices, also those that its other choices would bring."""
     fields: tuple[str, ...] = model.Params._fields  # type: ignore[attr-defined]
     names = [model.labels.get(n, n) for n in fields]
-    brought = [
-        field
-        for options in model.choices.values()
-        for option in options.values()
-        if isinstance(option, dict)
-        for field in option.get("params", {})
-    ]
+    options = [option for picks in model.choices.values() for option in picks.values()]
+    brought = [n for o in options if isinstance(o, dict) for n in o.get("params", {})]
     return [*names, *model.choices, *brought]

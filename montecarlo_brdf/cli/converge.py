@@ -4,7 +4,7 @@ from __future__ import annotations
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Read, Whole, listed, number
+from montecarlo_brdf.cli._options import WHOLE, Read, listed, number, parameter_sets
 
 EPILOG = """\b
 Examples:
@@ -26,7 +26,7 @@ Examples:
 @click.option("--points", type=Read(listed), default="all", show_default=True, metavar="SETS",
               help="all, or some of independent, stratified, sobol, lattice. "
               "[--points sobol,lattice]")  # fmt: skip
-@click.option("--samples", type=Whole(), default="2^21", show_default=True,
+@click.option("--samples", type=WHOLE, default="2^21", show_default=True,
               help="The most samples of one point of a curve, over its 32 randomisations. "
               "[--samples 2^18]")  # fmt: skip
 @_options.seed()
@@ -44,7 +44,6 @@ def command(
     """
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._terminal import progress
-    from montecarlo_brdf.cli._values import parameter_sets
     from montecarlo_brdf.verify.converge import converge
 
     output.check()

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number, Read, listed
+from montecarlo_brdf.cli._options import Read, finite, listed, models_of, parameter_sets
 
 EPILOG = """\b
 Examples:
@@ -29,7 +29,7 @@ Examples:
 @_options.phi_o()
 @click.option("--sampler", type=Read(listed), default="all", show_default=True, metavar="NAMES",
               help="all, or some of uniform, cosine, own. [--sampler cosine,own]")  # fmt: skip
-@click.option("--target-error", type=Number("in [1e-13, 1)"), default=None,
+@click.option("--target-error", type=finite("in [1e-13, 1)"), default=None,
               help="Sample until the 99 % interval of A is as narrow, relative to A. "
               "[--target-error 1e-6]")  # fmt: skip
 @click.option("--method", default=None, metavar="NAME",
@@ -56,7 +56,6 @@ def command(
     """
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._terminal import progress
-    from montecarlo_brdf.cli._values import models_of, parameter_sets
     from montecarlo_brdf.verify import furnace
     from montecarlo_brdf.verify.question import merged, part_of
 

@@ -77,31 +77,19 @@ def scene_from(
 ) -> Scene:
     """The scene of a file, or of --model and --environment."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._values import parameter_sets
     from montecarlo_brdf.scene.read import read_scene, scene_of
 
     if path is not None:
         if spec or sky:
             raise UserError("give a scene file, or --model and --environment, not both")
-        return read_scene(path, **single_values(assignments))
+        return read_scene(path, **dict(map(_options.assigned, assignments)))
     if not (spec and sky):
         raise UserError("give a scene file, or both --model and --environment")
     model = loading.load(spec)
-    sets = parameter_sets(model, assignments)
+    sets = _options.parameter_sets(model, assignments)
     if len(sets) != 1:
         raise UserError(f"radiance takes one value per parameter, not {len(sets)} sets")
     return scene_of(model, sets[0], sky)
-
-
-def single_values(assignments: tuple[str, ...]) -> dict[str, str | tuple[str, ...]]:
-    """-p name=value for the surface of a scene file; the model checks the values."""
-    found: dict[str, str | tuple[str, ...]] = {}
-    for assignment in assignments:
-        name, equals, text = assignment.partition("=")
-        if not equals or not text:
-            raise UserError(f"-p takes name=value, not {assignment!r}")
-        found[name.strip()] = tuple(text.split("/")) if "/" in text else text
-    return found
 
 
 def _explain(rows: list[dict[str, Any]]) -> None:

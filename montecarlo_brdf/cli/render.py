@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Value, Whole
+from montecarlo_brdf.cli._options import WHOLE, Value, axes, number, parameter_sets, values_of
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -46,9 +46,9 @@ Examples:
               "radiance. [--environment cap:20:45]")  # fmt: skip
 @click.option("--furnace", is_flag=True,
               help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.")
-@click.option("--size", type=Whole(), default="512", show_default=True,
+@click.option("--size", type=WHOLE, default="512", show_default=True,
               help="Pixels across. [--size 256]")  # fmt: skip
-@click.option("--samples", type=Whole(), default="256", show_default=True,
+@click.option("--samples", type=WHOLE, default="256", show_default=True,
               help="Samples per pixel where pixels are sampled. [--samples 1024]")  # fmt: skip
 @click.option("--camera", metavar="TILT[:AZIMUTH]",
               help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]  "
@@ -119,8 +119,6 @@ def _said(label: str, sphere: Sphere, furnace: bool) -> str:
 
 
 def _camera(text: str) -> tuple[float, ...]:
-    from montecarlo_brdf.cli._values import number
-
     parts = [number(t, "camera") for t in text.split(":")]
     if len(parts) > 2 or not 0.0 <= parts[0] <= 180.0:
         raise UserError(f"camera is TILT[:AZIMUTH] with a tilt in [0, 180] degrees, not {text!r}")
@@ -134,7 +132,6 @@ Page = tuple[list[tuple[str, "Scene"]], int]
 def _from_model(spec: str, sky: str, assignments: Sequence[str]) -> Page:
     """A model under a sky, once per combination of -p values."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._values import axes, parameter_sets
     from montecarlo_brdf.scene.read import scene_of
 
     model = loading.load(spec)
@@ -174,7 +171,6 @@ def _shown(value: Value) -> str:
 
 def _from_file(path: Path, assignments: Sequence[str]) -> Page:
     """The scene once per combination of -p values, which replace those of its surface."""
-    from montecarlo_brdf.cli._values import values_of
     from montecarlo_brdf.scene.read import read_scene
 
     listed: dict[str, list[Value]] = {}

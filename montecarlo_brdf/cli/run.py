@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number, Read, listed
+from montecarlo_brdf.cli._options import Read, finite, listed, models_of
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ Examples:
               help="A model that it must equal in values. [--against ggx]")
 @click.option("--max-time", type=float, metavar="SECONDS",
               help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
-@click.option("--effort", type=Number("in (0, 1]"), default=1.0, show_default=True,
+@click.option("--effort", type=finite("in (0, 1]"), default=1.0, show_default=True,
               help="Share of the pairs, places and nodes that checks look at. [--effort 0.1]")
 @click.option("--baseline", type=click.Path(path_type=Path), metavar="REPORT.json",
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
@@ -74,7 +74,6 @@ def command(
 
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._requests import Terms, request
-    from montecarlo_brdf.cli._values import models_of
     from montecarlo_brdf.judge.finding import versions
     from montecarlo_brdf.report.read import read_report
     from montecarlo_brdf.verify.supervision import Deadline
