@@ -176,9 +176,7 @@ def assert_checks(
     return report
 
 
-def require(
-    report: Report, inconclusive: str = Policy.FAIL, reproducible: bool = True
-) -> None:
+def require(report: Report, inconclusive: str = Policy.FAIL, reproducible: bool = True) -> None:
     """Every claim of a report held.
 
     report: of any question. inconclusive: "fail" or "pass", what an undecided claim is.

@@ -13,21 +13,13 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.judge.finding import SEVERITY, Bound, Finding, Report, Result, Verdict, worst
 from montecarlo_brdf.report.columns import NO_BREAK, Column, Row, Style, painted, table
 
-SYMBOLS = {
-    "theta_o_deg": "theta_o",
-    "theta_i_deg": "theta_i",
-    "phi_o_deg": "phi_o",
-    "phi_i_deg": "phi_i",
-    "channel": "ch",
-}
+SYMBOLS = {f"{a}_{d}_deg": f"{a}_{d}" for a in ("theta", "phi") for d in "oi"} | {"channel": "ch"}
 SIGNS = {Bound.AT_MOST: "<= ", Bound.AT_LEAST: ">= ", Bound.EQUAL: ""}
 #: what needs somebody's attention
 BAD = (Verdict.ERROR, Verdict.FAIL, Verdict.INCONCLUSIVE)
 #: as a summary counts them
-ORDER = (
-    *(Verdict.PASS, Verdict.FAIL, Verdict.ERROR),
-    *(Verdict.INCONCLUSIVE, Verdict.KNOWN, Verdict.SKIPPED),
-)
+ORDER = (Verdict.PASS, Verdict.FAIL, Verdict.ERROR,
+         Verdict.INCONCLUSIVE, Verdict.KNOWN, Verdict.SKIPPED)  # fmt: skip
 
 
 def case(result: Result) -> str:
@@ -99,12 +91,11 @@ def origin(result: Result) -> list[str]:
     return [f"f: {result.source['file']}:{result.source['line']}"] if result.source else []
 
 
-def failures(report: Report, verdicts: Iterable[str] = BAD, reproducible: bool = True) -> list[str]:
+def failures(report: Report, verdicts: set[Verdict], reproducible: bool) -> list[str]:
     """The findings with some verdicts in full: what was found, the cause, the command."""
     lines = []
-    wanted = set(verdicts)
     for result in report.results:
-        for f in (f for f in result.findings if f.verdict in wanted):
+        for f in (f for f in result.findings if f.verdict in verdicts):
             lines.append(f"{f.verdict} {result.check}: {statement(f)}")
             rest = explanation(f if reproducible else replace(f, reproduce=None))
             lines += [f"    {line}" for line in [*rest, *origin(result)]]
@@ -112,13 +103,9 @@ def failures(report: Report, verdicts: Iterable[str] = BAD, reproducible: bool =
 
 
 STYLES = {
-    Verdict.PASS: Style.GREEN,
-    Verdict.FAIL: Style.LOUD,
-    Verdict.ERROR: Style.LOUD,
-    Verdict.INCONCLUSIVE: Style.YELLOW,
-    Verdict.KNOWN: Style.CYAN,
-    Verdict.SKIPPED: Style.DIM,
-}
+    Verdict.PASS: Style.GREEN, Verdict.FAIL: Style.LOUD, Verdict.ERROR: Style.LOUD,
+    Verdict.INCONCLUSIVE: Style.YELLOW, Verdict.KNOWN: Style.CYAN, Verdict.SKIPPED: Style.DIM,
+}  # fmt: skip
 PLAIN_WIDTH = 118  # where there is no terminal
 
 

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import functools
-import time
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
@@ -10,13 +9,7 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import equality
 from montecarlo_brdf.checks._truth import quadrature
 from montecarlo_brdf.estimate.arguments import check_theta
-from montecarlo_brdf.judge.claim import (
-    AGREEMENT_TOLERANCE,
-    Exact,
-    ExactClaim,
-    Kind,
-    Reference,
-)
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound, Report
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.report.text import called
@@ -28,7 +21,6 @@ from montecarlo_brdf.verify.question import (
     Settings,
     answered,
     probed,
-    reported,
     shown_parameters,
 )
 
@@ -51,7 +43,6 @@ def compare(
     """
     angles = [check_theta(a) for a in theta_o_deg]
     settings = Settings(seed=seed, tolerance=tolerance)
-    started = time.perf_counter()
     questions = []
     for p, q in cases or [(model.parameters(), other.parameters())]:
         second = other.of(q)
@@ -59,9 +50,8 @@ def compare(
         title = f"against {called(other.name, shown_parameters(second, q))}"
         case = Case(model.of(p), p, angles, phi_o_deg, tolerance=tolerance, seed=seed)
         questions.append(Question(title, case, functools.partial(claims, other=second, q=q)))
-    results = answered(questions, settings.plan, 1 + 2 * len(angles), progress)
     told = {"theta_o_deg": angles, "phi_o_deg": phi_o_deg, "tolerance": tolerance, "seed": seed}
-    return reported("compare", told, results, started)
+    return answered("compare", told, questions, settings.plan, 1 + 2 * len(angles), progress)
 
 
 def claims(case: Case, other: Model, q: NamedTuple) -> Iterator[ExactClaim]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import functools
 import math
-import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -38,7 +37,6 @@ from montecarlo_brdf.verify.question import (
     answered,
     chosen,
     parameter_sets,
-    reported,
 )
 
 NAME = "convergence"
@@ -85,17 +83,17 @@ def converge(
     samplers = chosen("sampler", sampler, (*charts_of(model), *samplers_of(model)))
     sets = chosen("point set", points, tuple(SETS))
     settings = Settings(sets[0], samples, seed, threads)
-    started = time.perf_counter()
     cases = [
         Case(model.of(one), one, [theta], phi_o_deg, seed=seed) for one in parameter_sets(model, p)
     ]
     claimed = functools.partial(claims, samplers=samplers, sets=sets)
     questions = [Question(NAME, case, claimed) for case in cases]
-    results = answered(questions, settings.plan, len(samplers) * len(sets), progress)
-    results = [replace(r, source={}) for r in results]  # a rate accuses no line of f
     told = {"theta_o_deg": theta, "phi_o_deg": phi_o_deg, "sampler": samplers}
     told |= {**settings.told(), "points": ", ".join(sets)}
-    return reported("converge", told, results, started)
+    count = len(samplers) * len(sets)
+    report = answered("converge", told, questions, settings.plan, count, progress)
+    # a rate accuses no line of f
+    return replace(report, results=[replace(r, source={}) for r in report.results])
 
 
 def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator[SlopeClaim]:

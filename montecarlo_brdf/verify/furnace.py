@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -26,7 +25,6 @@ from montecarlo_brdf.verify.question import (
     answered,
     chosen,
     parameter_sets,
-    reported,
 )
 
 if TYPE_CHECKING:
@@ -62,7 +60,6 @@ def furnace(
     thetas = [check_theta(a) for a in _listed(theta_o_deg)]
     samplers = _samplers(model, sampler)
     settings = Settings(points, samples, seed, threads, tolerance, target_error, method, sums)
-    started = time.perf_counter()
     only = None if sampler == "all" else samplers
     cases = [
         Case(model.of(one), one, thetas, phi_o_deg, only, tolerance, seed=seed)
@@ -70,13 +67,14 @@ def furnace(
     ]
     questions = [Question("furnace", case, check.claims) for case in cases]
     count = 2 * len(thetas) * len(cases[0].sets) if cases else 1
-    results = answered(questions, settings.plan, count, progress)
-    if curve:
-        drawn = [check.curves(c.model, c.p, max(thetas), phi_o_deg) for c in cases]
-        results = [replace(r, curves=c) for r, c in zip(results, drawn, strict=True)]
     told = {"theta_o_deg": thetas, "phi_o_deg": phi_o_deg, "sampler": samplers}
     told |= {"tolerance": tolerance, **settings.told()}
-    return reported("furnace", told, results, started)
+    report = answered("furnace", told, questions, settings.plan, count, progress)
+    if not curve:
+        return report
+    drawn = [check.curves(c.model, c.p, max(thetas), phi_o_deg) for c in cases]
+    results = [replace(r, curves=c) for r, c in zip(report.results, drawn, strict=True)]
+    return replace(report, results=results)
 
 
 def _listed(angles: Sequence[float] | float) -> Sequence[Any]:

@@ -120,10 +120,11 @@ class Question(NamedTuple):
 
 
 def answered(
-    questions: Sequence[Question], plan: Plan, count: int, progress: Progress | None = None
-) -> list[Result]:
-    """The results of questions, one after another; count: about how many claims each has."""
-    results = []
+    command: str, told: dict[str, Any], questions: Sequence[Question], plan: Plan, count: int,
+    progress: Progress | None = None,
+) -> Report:  # fmt: skip
+    """The report of questions, one after another; count: about how many claims each has."""
+    started, results = time.perf_counter(), []
     for k, question in enumerate(questions):
         case = question.case
         probed(case.model, case.p)
@@ -131,7 +132,7 @@ def answered(
         claims = question.claims(case)
         found = decided(claims, plan, case.model.disclaims, count=count, progress=part)
         results.append(question.result(found))
-    return results
+    return reported(command, told, results, started)
 
 
 def decided(

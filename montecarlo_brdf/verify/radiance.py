@@ -62,27 +62,21 @@ def radiance(
         functools.partial(_repeat, scene, settings, skip), count=_count(scene, energy),
         progress=progress,
     )  # fmt: skip
-    told = {
-        "theta_o_deg": list(scene.view.theta_o_deg),
-        "phi_o_deg": list(scene.view.phi_o_deg),
-        "skip": skip,
-        "tolerance": tolerance,
-        "plan": explained(plan, settings.plan),
-        **settings.told(),
-    }
+    view = {"theta_o_deg": [*scene.view.theta_o_deg], "phi_o_deg": [*scene.view.phi_o_deg]}
+    told = {**view, "skip": skip, "tolerance": tolerance, "plan": explained(plan, settings.plan)}
     result = Result(scene.name, {}, "radiance", _with_reading(scene, findings))
-    return reported("radiance", told, [result], started)
+    return reported("radiance", {**told, **settings.told()}, [result], started)
 
 
 def _claims(
     scene: Scene, plan: ScenePlan, tolerance: float | None, skip: bool, energy: bool
 ) -> Iterator[Claim]:
     for k, total in enumerate(scene_claims.weight_sums(scene)):
-        exact = Exact(total, hint=None if total <= 1.0 else "reduce a weight")
+        hint = None if total <= 1.0 else "reduce a weight"
         yield ExactClaim(
             WEIGHTS, {"channel": k} if scene.channels > 1 else {}, Bound.AT_MOST,
             Reference(1.0, 0.0, Kind.BOUND, "lobes share the light that arrives"), WEIGHT_ROUNDING,
-            functools.partial(_same, exact), property=None,
+            functools.partial(Exact, total, hint=hint), property=None,
         )  # fmt: skip
     yield from scene_claims.claims(scene, plan, tolerance)
     if energy or scene.band:
@@ -93,10 +87,6 @@ def _claims(
                 plan = planning.make(reverse, skip)
                 yield from scene_claims.energy_claims(scene, plan, tolerance, reverse=True)
         yield from scene_claims.band_claims(scene, furnace, tolerance)
-
-
-def _same(value: Exact) -> Exact:
-    return value
 
 
 def _count(scene: Scene, energy: bool) -> int:
@@ -142,7 +132,6 @@ def explained(plan: ScenePlan, sampling: Plan) -> list[dict[str, Any]]:
     for item in plan.items:
         saved = 0 if item.evaluated else item.estimates * views * sampling.samples
         decision = "evaluated" if item.evaluated else "skipped"
-        rows.append(
-            {"what": item.what, "decision": decision, "why": item.reason, "samples_saved": saved}
-        )
+        row = {"what": item.what, "decision": decision, "why": item.reason}
+        rows.append({**row, "samples_saved": saved})
     return rows
