@@ -66,12 +66,8 @@ def assert_conserves_energy(
 ) -> Report:
     """Nowhere is more reflected than received, in either direction.
 
-    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
-    around which searches for the worst case look at the whole ranges. options: those of
-    `assert_checks`.
-
-    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
-    UserError for a bad value, ModelError if the BRDF does not run.
+    brdf, p, options: as `assert_checks` takes them. Returns the report. Raises what it raises: with
+    what was found, where, and the likely cause.
     """
     __tracebackhide__ = True
     return assert_checks(brdf, p, ("energy",), **options)
@@ -80,12 +76,8 @@ def assert_conserves_energy(
 def assert_reciprocal(brdf: object, p: Parameters = None, **options: Unpack[Options]) -> Report:
     """f(wo, wi) = f(wi, wo).
 
-    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
-    around which searches for the worst case look at the whole ranges. options: those of
-    `assert_checks`.
-
-    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
-    UserError for a bad value, ModelError if the BRDF does not run.
+    brdf, p, options: as `assert_checks` takes them. Returns the report. Raises what it raises: with
+    what was found, where, and the likely cause.
     """
     __tracebackhide__ = True
     return assert_checks(brdf, p, ("reciprocity",), **options)
@@ -98,12 +90,8 @@ def assert_furnace(
     """The albedo is at most 1 and what it should be.
 
     expected: a number, or a function of (cos_theta_o, p); None for the model's own reference.
-    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
-    around which searches for the worst case look at the whole ranges. options: those of
-    `assert_checks`.
-
-    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
-    UserError for a bad value, ModelError if the BRDF does not run.
+    brdf, p, options: as `assert_checks` takes them. Returns the report. Raises what it raises: with
+    what was found, where, and the likely cause.
     """
     __tracebackhide__ = True
     model = as_model(brdf, p)
@@ -118,12 +106,8 @@ def assert_samples_match_pdf(
 ) -> Report:
     """Drawn directions follow pdf, which integrates to 1 less what is rejected.
 
-    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
-    around which searches for the worst case look at the whole ranges. options: those of
-    `assert_checks`.
-
-    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
-    UserError for a bad value, ModelError if the BRDF does not run.
+    brdf, p, options: as `assert_checks` takes them. Returns the report. Raises what it raises: with
+    what was found, where, and the likely cause.
     """
     __tracebackhide__ = True
     model = as_model(brdf, p)

@@ -17,8 +17,8 @@ import click
 def command(report: Path, output: Path) -> int:
     """Draw the picture of an exported report."""
     from montecarlo_brdf.files import check_writable, write_bytes
+    from montecarlo_brdf.report.json import read_report
     from montecarlo_brdf.report.pictures import drawn, kind_of
-    from montecarlo_brdf.report.read import read_report
 
     check_writable(output)
     write_bytes(output, drawn(read_report(report), kind_of(output)))

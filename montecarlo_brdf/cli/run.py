@@ -12,8 +12,7 @@ from montecarlo_brdf.cli._options import Read, finite, listed, models_of
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cli._project import Project
-    from montecarlo_brdf.cli._requests import Request
+    from montecarlo_brdf.cli._requests import Project, Request
     from montecarlo_brdf.judge.finding import Policy, Report
     from montecarlo_brdf.verify.supervision import Deadline
 
@@ -75,7 +74,7 @@ def command(
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._requests import Terms, request
     from montecarlo_brdf.judge.finding import versions
-    from montecarlo_brdf.report.read import read_report
+    from montecarlo_brdf.report.json import read_report
     from montecarlo_brdf.verify.supervision import Deadline
 
     output.check()
@@ -102,18 +101,18 @@ def command(
 
 def asked_project(config: Path | None, options: Mapping[str, object]) -> Project:
     """The project of --config, or of the folder one stands in."""
-    from montecarlo_brdf.cli import _project
+    from montecarlo_brdf.cli import _requests
 
-    path = config or _project.find(Path())
+    path = config or _requests.find(Path())
     if path is None:
         raise UserError(
-            f"give --model, or a {_project.FILE} with [[models]] in this folder or one above it"
+            f"give --model, or a {_requests.FILE} with [[models]] in this folder or one above it"
         )
     given = given_options()
     local = [flag for name, flag in LOCAL.items() if name in given]
     if local:
         raise UserError(f"{', '.join(local)} needs --model: {path} says what to check of which")
-    return _project.read(path, {k: v for k, v in options.items() if k in given & ABOVE})
+    return _requests.read(path, {k: v for k, v in options.items() if k in given & ABOVE})
 
 
 def given_options() -> set[str]:

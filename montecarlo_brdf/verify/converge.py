@@ -267,10 +267,7 @@ def _power(samples: float, extrapolated: bool) -> str:
 def _row(level: Level) -> dict[str, Any]:
     """A level as a finding shows it."""
     return {
-        "estimator": f"N = {level.samples}",
-        "samples": level.samples,
-        "value": level.error,
-        "stderr": level.error * level.uncertainty * math.log(2.0),
-        "verdict": "",
+        "estimator": f"N = {level.samples}", "samples": level.samples, "value": level.error,
+        "stderr": level.error * level.uncertainty * math.log(2.0), "verdict": "",
         "randomisations": list(level.each),
-    }
+    }  # fmt: skip

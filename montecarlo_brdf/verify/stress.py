@@ -62,17 +62,12 @@ def _numbers(one: Loss) -> dict[str, Any]:
     """What a precision lost, for the table; NaN where no value of the parameter is safe."""
     parameter, safe = one.safe or (None, None)
     return {
-        "name": one.precision,
-        "eps": one.eps,
-        "points": one.points,
-        "worst": one.worst.own if one.worst else 0.0,
-        "allowed": one.tolerance,
-        "with_inputs": one.worst_total.total if one.worst_total else 0.0,
-        **one.counts,
-        "parameter": parameter,
-        "safe": safe,
+        "name": one.precision, "eps": one.eps, "points": one.points,
+        "worst": one.worst.own if one.worst else 0.0, "allowed": one.tolerance,
+        "with_inputs": one.worst_total.total if one.worst_total else 0.0, **one.counts,
+        "parameter": parameter, "safe": safe,
         "length": one.draws.length if one.draws else None,
-    }
+    }  # fmt: skip
 
 
 def result(model: Model, found: Sequence[Loss], promised: Sequence[str]) -> Result:
