@@ -9,6 +9,7 @@ import click
 
 from montecarlo_brdf.cli import _options
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge.finding import Verdict
 
 if TYPE_CHECKING:
     from montecarlo_brdf.scene.scene import Scene
@@ -54,7 +55,6 @@ def command(
     quadrature, and the surface's albedo is at most 1.
     """
     from montecarlo_brdf.cli._terminal import progress
-    from montecarlo_brdf.judge.finding import Verdict
     from montecarlo_brdf.scene.read import with_views
     from montecarlo_brdf.verify.radiance import WEIGHTS, radiance
 
