@@ -26,17 +26,17 @@ from montecarlo_brdf.sampling.directions import (
 )
 from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
 
-F: Any = hole()
-PDF: Any = hole()
-SKY: Any = hole()
-VALUE: Any = hole()
-DIRECTION: Any = hole()
-PAIR: Any = hole()
-BLIND: Any = hole()
-INSIDE: Any = hole()
-FIRST: Any = hole()
-SECOND: Any = hole()
-THIRD: Any = hole()
+F: Callable[..., float] = hole()
+PDF: Callable[..., float] = hole()
+SKY: Callable[..., float] = hole()
+VALUE: Callable[..., float] = hole()
+DIRECTION: Callable[..., Row] = hole()
+PAIR: Callable[..., float] = hole()
+BLIND: Callable[..., float] = hole()
+INSIDE: Callable[..., float] = hole()
+FIRST: Callable[..., Row] = hole()
+SECOND: Callable[..., Row] = hole()
+THIRD: Callable[..., Row] = hole()
 
 LAST = 0.9999999999999999  # the largest number below 1
 

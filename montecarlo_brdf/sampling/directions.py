@@ -21,9 +21,9 @@ from montecarlo_brdf.sampling.warps import random_hemisphere, random_hemisphere_
 from montecarlo_brdf.special import exp2, turn
 from montecarlo_brdf.vectors import Vec
 
-SAMPLE: Any = hole()
-PDF: Any = hole()
-STEEPEST: Any = hole()
+SAMPLE: Callable[..., tuple[float, ...]] = hole()
+PDF: Callable[..., float] = hole()
+STEEPEST: Callable[..., float] = hole()
 
 PI, TWO_PI = math.pi, 2.0 * math.pi
 Given = tuple[float, float, float, float]

@@ -7,18 +7,19 @@ p = (model, sky) holds the numbers of both. A drawn direction below the horizon 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine, random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
 
-F: Any = hole()
-SAMPLE: Any = hole()
-PDF: Any = hole()
-SKY: Any = hole()
-SKY_SAMPLE: Any = hole()
-SKY_PDF: Any = hole()
+F: Callable[..., float] = hole()
+SAMPLE: Callable[..., tuple[float, ...]] = hole()
+PDF: Callable[..., float] = hole()
+SKY: Callable[..., float] = hole()
+SKY_SAMPLE: Callable[..., tuple[float, ...]] = hole()
+SKY_PDF: Callable[..., float] = hole()
 
 PI = math.pi
 
