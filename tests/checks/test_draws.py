@@ -36,7 +36,7 @@ def test_rare_lobes_seams_and_directions_drawn_twice_are_no_fault_of_a_pdf(
     name: str, seed: int
 ) -> None:
     """Of 2^14 draws 0.7 are expected within a step of a fold of the azimuth, where the difference
-    counts as up to 1: more than 9 have a probability below 1e-8. With fewer than 5 a look decides."""
+    counts as up to 1: more than 9 have a probability below 1e-8. Fewer than 5: decided."""
     e = deficit(case(f"honest/{name}"), seed=seed)
     assert e.mean <= 9 / PLAN.samples
     assert e.half_width(LEVEL / 2.0) + 5 / PLAN.samples < JACOBIAN_TOLERANCE
