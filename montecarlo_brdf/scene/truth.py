@@ -168,7 +168,7 @@ def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float
         found = integrate(
             lambda w: g(w) * w[:, 2],
             _truth.coordinates(model, p, np.array(wo)),
-            probes=_truth.probes(model, p, wo),
+            probes=_truth.probes(model, p, np.array(wo)),
         )
         return found.value, found.error
     return _sky.adaptive(g, _sky.hemisphere(wo, width))
