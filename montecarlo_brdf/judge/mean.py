@@ -31,7 +31,6 @@ CONFIRMING_REPLICATES = 64
 CONFIRMING_POINTS = "sobol"
 #: estimators that use nothing of a model but its f
 OF_F_ALONE = ("uniform", "cosine")
-OF_SAME_F = (Kind.QUADRATURE, Kind.SAME_F)  # kinds of expected values that say the same f
 #: how often a deviation of the size `resolves` may escape
 ESCAPES = 0.05
 #: how often the spread of another run may exceed what `resolves` allows for
@@ -188,7 +187,7 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
 
 def _of_same_f(claim: MeanClaim) -> bool:
     """Whether the expected value is a quadrature of the f that is sampled."""
-    return claim.expected is not None and claim.expected.kind in OF_SAME_F
+    return claim.expected is not None and claim.expected.kind == Kind.SAME_F
 
 
 def _resolving(claim: MeanClaim, opinions: Opinions) -> Opinion:
