@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from montecarlo_brdf.cases.case import Case, Parameters, search_range
 from montecarlo_brdf.estimate import scattered
@@ -23,9 +23,9 @@ WIDE = 50.0  # a range whose ends differ by more than this factor is searched by
 def between(low: float, high: float, t: T) -> T:
     """A value at t in [0, 1] of a range, by its logarithm where the range is wide; or many."""
     if low > 0.0 and high > WIDE * low:
-        return low * (high / low) ** t
+        return cast(T, low * (high / low) ** t)
     if low == 0.0 and high > WIDE:
-        return (1.0 + high) ** t - 1.0
+        return cast(T, (1.0 + high) ** t - 1.0)
     return low + (high - low) * t
 
 

@@ -18,7 +18,7 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array
     from montecarlo_brdf.estimate.quadrature import Coordinates, Probes
-    from montecarlo_brdf.mixture import Term
+    from montecarlo_brdf.model import Term
 
 #: numbers from which lobe coordinates learn the width of a sampler's lobe
 PILOT = 4096

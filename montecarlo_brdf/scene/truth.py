@@ -9,17 +9,26 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.estimate.pointwise import Pointwise
 from montecarlo_brdf.judge.claim import Reference
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.references import _irradiance
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.scene import ORIGIN, Scene
 from montecarlo_brdf.scene.surface import ignores_directions
+from montecarlo_brdf.scene.texels import Image
 from montecarlo_brdf.truth import true_albedo
 from montecarlo_brdf.vectors import Vec, mirrored
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    OfArray = Callable[[Array], Array]
 
 UNKNOWN = 0.002  # width of a lobe that a model does not tell: looked for, never relied on
 ORDER = ("closed form", "declared", "independent", "quadrature of the same f")
@@ -54,7 +63,7 @@ def _sum(parts: list[Reference]) -> Reference:
     return Reference(value, error, kind, " + ".join(dict.fromkeys(p.source for p in parts)))
 
 
-def direct(scene: Scene, model: Model, p: Any, wo: Vec, channel: int) -> Reference:
+def direct(scene: Scene, model: Model, p: ParameterSet, wo: Vec, channel: int) -> Reference:
     """The exact sum over delta lights."""
     placed = [(*light.at(ORIGIN), light.colour[channel]) for light in scene.lights]
     lit = [(w, factor * e) for w, factor, e in placed if w[2] > 0.0 and e]
@@ -70,14 +79,14 @@ def direct(scene: Scene, model: Model, p: Any, wo: Vec, channel: int) -> Referen
     return Reference(math.fsum(terms), error, "quadrature of the same f", "exact sum of lights")
 
 
-def constant_f(model: Model, p: Any, irradiance: float) -> Reference:
+def constant_f(model: Model, p: ParameterSet, irradiance: float) -> Reference:
     """f E for an f that ignores directions."""
     up = (0.0, 0.0, 1.0)
     value = float(model.f(up, up, model.prepared(p))) * irradiance
     return Reference(value, 4e-15 * abs(value), "closed form", "f E")
 
 
-def _under(sky: skies.Sky, model: Model, p: Any, wo: Vec, channel: int) -> Reference:
+def _under(sky: skies.Sky, model: Model, p: ParameterSet, wo: Vec, channel: int) -> Reference:
     shape = sky.shapes[channel]
     if ignores_directions(model):
         found = constant_f(model, p, irradiance(sky, channel))
@@ -105,14 +114,14 @@ def irradiance(sky: skies.Sky, channel: int) -> float:
         return _irradiance.cap(gamma, math.atan2(math.hypot(axis[0], axis[1]), axis[2]))
     if isinstance(shape, skies.Harmonics):
         return _irradiance.harmonics(shape.coefficients)
-    if isinstance(shape, skies.Image):
+    if isinstance(shape, Image):
         plane = sky.keep[2 * (channel if len(sky.keep) > 2 else 0)]
         return _irradiance.image([float(v) for v in plane.sum(axis=1)], plane.shape[1])
     return _irradiance.constant()
 
 
 @functools.lru_cache(maxsize=4096)
-def _of_shape(model: Model, p: Any, shape: Any, wo: Vec) -> Reference:
+def _of_shape(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Reference:
     """A lobe under a sky of unit scale."""
     known = _closed(model, p, shape, wo)
     if known is not None:
@@ -125,29 +134,29 @@ def _of_shape(model: Model, p: Any, shape: Any, wo: Vec) -> Reference:
     return Reference(value, error, "quadrature of the same f", "adaptive quadrature")
 
 
-def _albedo(model: Model, p: Any, wo: Vec) -> Any:
+def _albedo(model: Model, p: ParameterSet, wo: Vec) -> Any:
     turned = {} if model.isotropic else {"phi_o": math.atan2(wo[1], wo[0])}
     return true_albedo(model.name, wo[2], **p._asdict(), **model.picks, **turned)
 
 
-def _closed(model: Model, p: Any, shape: Any, wo: Vec) -> Reference | None:
+def _closed(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Reference | None:
     if isinstance(shape, skies.Cosine) and shape.axis == (0.0, 0.0, 1.0) and model.built_in:
         truth = _irradiance.cosine_sky(model.name, wo[2], shape.exponent, **p._asdict())
         return Reference(*truth) if truth else None
     return None
 
 
-def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float]:
+def _quadrature(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> tuple[float, float]:
     from montecarlo_brdf.references import _sky
 
     at = Pointwise(model, p)
     sky = _array_sky(shape)
 
-    def g(wi: Any) -> Any:
+    def g(wi: Array) -> Array:
         return at.f(wo, wi) * sky(wi)
 
     kind, width = (model.lobe[0], float(model.lobe[1](p))) if model.lobe else (None, UNKNOWN)
-    if isinstance(shape, skies.Image):
+    if isinstance(shape, Image):
         return _texels(g, shape)
     if isinstance(shape, (skies.Cap, skies.Cosine)):
         whole = isinstance(shape, skies.Cosine)
@@ -167,26 +176,26 @@ def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float
     return _sky.adaptive(g, _sky.hemisphere(wo, width))
 
 
-def _array_sky(shape: Any) -> Any:
+def _array_sky(shape: skies.Shape) -> OfArray:
     """L on an array of directions (n, 3)."""
     import numpy as np
 
     if isinstance(shape, skies.Cosine):
         return lambda w: np.maximum(0.0, w @ np.array(shape.axis)) ** shape.exponent
-    if isinstance(shape, (skies.Cap, skies.Constant, skies.Image)):
+    if isinstance(shape, (skies.Cap, skies.Constant, Image)):
         return lambda w: np.ones(len(w))  # the chart ends where the cap does
-    function = skies.FUNCTIONS[type(shape)].radiance
+    function: Callable[..., Any] = skies.FUNCTIONS[type(shape)].radiance  # of arrays too
     return lambda w: function(tuple(w.T), shape)
 
 
-def _texels(g: Any, shape: Any) -> tuple[float, float]:
+def _texels(g: OfArray, shape: Image) -> tuple[float, float]:
     """Sum over texels of L times the integral of f cos over the texel, by two Gauss rules."""
     from montecarlo_brdf.references import _sky
 
     return _sky.texels(g, _texel_values(shape))
 
 
-def _texel_values(shape: Any) -> Any:
+def _texel_values(shape: Image) -> Array:
     import ctypes
 
     import numpy as np
