@@ -13,7 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.estimate.pointwise import Pointwise
-from montecarlo_brdf.judge.claim import Reference
+from montecarlo_brdf.judge.claim import Kind, Reference
 from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.references import _irradiance
 from montecarlo_brdf.scene import skies
@@ -31,12 +31,13 @@ if TYPE_CHECKING:
     OfArray = Callable[[Array], Array]
 
 UNKNOWN = 0.002  # width of a lobe that a model does not tell: looked for, never relied on
-ORDER = ("closed form", "declared", "independent", "quadrature of the same f")
+#: the last of several kinds is that of their sum
+ORDER = (Kind.CLOSED_FORM, Kind.DECLARED, Kind.INDEPENDENT, Kind.SAME_F)
 
 
 def reference(scene: Scene, wo: Vec, channel: int) -> Reference:
     """The expected L_o of one channel."""
-    parts = [Reference(scene.emission[channel], 0.0, "closed form", "emission")]
+    parts = [Reference(scene.emission[channel], 0.0, Kind.CLOSED_FORM, "emission")]
     for lobe in scene.surface.lobes:  # type: ignore[union-attr]
         weight, p = lobe.weights[channel], lobe.sets[channel]
         if weight == 0.0:
@@ -68,7 +69,7 @@ def direct(scene: Scene, model: Model, p: ParameterSet, wo: Vec, channel: int) -
     placed = [(*light.at(ORIGIN), light.colour[channel]) for light in scene.lights]
     lit = [(w, factor * e) for w, factor, e in placed if w[2] > 0.0 and e]
     if not lit:
-        return Reference(0.0, 0.0, "closed form", "no light")
+        return Reference(0.0, 0.0, Kind.CLOSED_FORM, "no light")
     if ignores_directions(model):
         irradiance = math.fsum(e * w[2] for w, e in lit)
         return constant_f(model, p, irradiance)._replace(source="exact sum of lights")
@@ -76,14 +77,14 @@ def direct(scene: Scene, model: Model, p: ParameterSet, wo: Vec, channel: int) -
     terms = [f * e * w[2] for f, (w, e) in zip(map(float, values), lit, strict=True)]
     # plain and compiled f differ by the rounding of powers with large exponents
     error = 1e-12 * math.fsum(map(abs, terms))
-    return Reference(math.fsum(terms), error, "quadrature of the same f", "exact sum of lights")
+    return Reference(math.fsum(terms), error, Kind.SAME_F, "exact sum of lights")
 
 
 def constant_f(model: Model, p: ParameterSet, irradiance: float) -> Reference:
     """f E for an f that ignores directions."""
     up = (0.0, 0.0, 1.0)
     value = float(model.f(up, up, model.prepared(p))) * irradiance
-    return Reference(value, 4e-15 * abs(value), "closed form", "f E")
+    return Reference(value, 4e-15 * abs(value), Kind.CLOSED_FORM, "f E")
 
 
 def _under(sky: skies.Sky, model: Model, p: ParameterSet, wo: Vec, channel: int) -> Reference:
@@ -131,7 +132,7 @@ def _of_shape(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Ref
         if truth:
             return Reference(*truth)
     value, error = _quadrature(model, p, shape, wo)
-    return Reference(value, error, "quadrature of the same f", "adaptive quadrature")
+    return Reference(value, error, Kind.SAME_F, "adaptive quadrature")
 
 
 def _albedo(model: Model, p: ParameterSet, wo: Vec) -> Any:
