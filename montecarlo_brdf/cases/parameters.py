@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from montecarlo_brdf.cases.case import Case, Parameters, search_range
 from montecarlo_brdf.estimate import scattered
@@ -23,9 +23,11 @@ WIDE = 50.0  # a range whose ends differ by more than this factor is searched by
 def between(low: float, high: float, t: T) -> T:
     """A value at t in [0, 1] of a range, by its logarithm where the range is wide; or many."""
     if low > 0.0 and high > WIDE * low:
-        return cast(T, low * (high / low) ** t)
+        t = (high / low) ** t
+        return low * t
     if low == 0.0 and high > WIDE:
-        return cast(T, (1.0 + high) ** t - 1.0)
+        t = (1.0 + high) ** t
+        return t - 1.0
     return low + (high - low) * t
 
 

@@ -125,8 +125,9 @@ def _about_half(wo: Array, wi: Array) -> Pairs:
     c, s = math.cos(0.7), math.sin(0.7)
 
     def turned(w: Array) -> Array:
-        along: Array = np.sum(w * h, axis=1)[:, None] * h
-        return c * w + s * np.cross(h, w) + (1.0 - c) * along
+        along = np.sum(w * h, axis=1)[:, None] * h
+        found: Array = c * w + s * np.cross(h, w) + (1.0 - c) * along
+        return found
 
     return turned(wo), turned(wi)
 

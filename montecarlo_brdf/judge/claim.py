@@ -64,7 +64,8 @@ def worst_of(looks: Iterable[Exact]) -> Exact:
     """The largest of some values, of equal ones the last, with the points of all."""
     looks = list(looks)
     found: Exact = max(reversed(looks), key=lambda one: one.value)
-    return found._replace(points=sum(one.points for one in looks))
+    whole: Exact = found._replace(points=sum(one.points for one in looks))
+    return whole
 
 
 class Fit(NamedTuple):

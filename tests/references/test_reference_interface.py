@@ -7,10 +7,10 @@ import sys
 import numpy as np
 import pytest
 import vector_models as vm
+from adaptive import quadrature
 from reference_data import cosine
 
 from montecarlo_brdf import references
-from montecarlo_brdf.references._adaptive import quadrature
 
 
 def test_names_are_the_files() -> None:
