@@ -11,8 +11,18 @@ Conventions (one place for all of them):
     angles        a name says _deg or it is in radians
     A(wo)         directional albedo, int f cos(theta_i) dwi; R(wi) = int f cos(theta_o) dwo
 
-Reading order: vectors, compile, sampling, model, estimate, cases, judge, checks, verify, report,
-cli.
+Reading order, each resting on those before it (CONTRIBUTING.md has a picture):
+
+    vectors       directions as plain tuples
+    compile       templates with holes become machine code: `compile.kernel`, `compile.bind`
+    sampling      points of the unit cube, and ways from them to a direction
+    model         what a BRDF says of itself; models are its files, references their truth
+    estimate      quantity times direction: a number with its error bar, and whether to believe it
+    cases         what is looked at: a model, parameters, directions
+    judge         a claim becomes a finding: `judge.claim`, `judge.decide`
+    checks        one question per file; scene and stability ask theirs in the same way
+    verify        a question becomes a Report
+    report, cli   a Report becomes text, a file, a picture; one file per command
 """
 from __future__ import annotations
 

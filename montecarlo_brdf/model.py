@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, NamedTuple, cast
 
+from montecarlo_brdf.compile.layout import Numbers
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.vectors import Vec
 
@@ -22,7 +23,7 @@ from montecarlo_brdf.vectors import Vec
 ParameterSet = NamedTuple
 #: The last argument of f, sample and pdf: what `prepare` makes of a parameter set, or the set
 #: itself. Its type is the model's own.
-Prepared = Any
+Prepared = Numbers
 #: f and pdf, both in 1/sr: (wo, wi, p) -> number.
 Function = Callable[[Vec, Vec, Prepared], float]
 #: (wo, three uniform numbers, p) -> (x, y, z) or (x, y, z, weight).

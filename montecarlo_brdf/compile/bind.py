@@ -11,20 +11,25 @@ from __future__ import annotations
 import dis
 import functools
 import types
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Mapping, MutableSequence, Sequence
+from typing import Any, NamedTuple, TypeGuard
 
 Function = Callable[..., Any]
+#: What a template sees of the three rows that a kernel is called with; `ints` it may use as places
+#: to count in.
+Ints = MutableSequence[int]
+Reals = Sequence[float]
+Out = MutableSequence[float]
 STANDARD = ("math", "cmath", "builtins", "numpy", "numba")
 GLOBAL_LOADS = ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> Any:
     """The Python function behind a numba dispatcher; anything else as it is."""
     return getattr(value, "py_func", value)
 
 
-def is_own_module(value: Any) -> bool:
+def is_own_module(value: object) -> TypeGuard[types.ModuleType]:
     """A module whose functions must be compiled with the kernel (not math, not numpy)."""
     return isinstance(value, types.ModuleType) and value.__name__.split(".")[0] not in STANDARD
 
@@ -64,7 +69,9 @@ def references(function: Function, names: Mapping[str, object]) -> dict[str, Any
     return {n: names[n] if _fills(scope[n], n, names) else scope[n] for n in used}
 
 
-def uses(value: object, names: Mapping[str, object]) -> bool:
+def uses(
+    value: object, names: Mapping[str, object]
+) -> TypeGuard[types.FunctionType]:
     """Whether `value` is a template with a hole that one of `names` fills."""
     if not isinstance(value, types.FunctionType) or not names:
         return False
@@ -165,7 +172,7 @@ class Specialiser:
         clone.__qualname__ = function.__qualname__
         return clone
 
-    def _stand_in(self, value: Any, code: types.CodeType, names: Mapping[str, object]) -> Any:
+    def _stand_in(self, value: object, code: types.CodeType, names: Mapping[str, object]) -> Any:
         if isinstance(value, Bound):
             return self.bind(value)
         if uses(value, names):
@@ -179,7 +186,7 @@ class Specialiser:
             self._instructions[value] = value.intrinsic()
         return self._instructions[value]
 
-    def _counterpart(self, value: Any, code: types.CodeType) -> Any:
+    def _counterpart(self, value: object, code: types.CodeType) -> Any:
         if id(value) in self._twins:
             return self._twins[id(value)]
         value = plain(value)
@@ -218,5 +225,5 @@ def contiguous(value: Any) -> Any:
     return value.copy(order="C")
 
 
-def _tuple_like(value: Any, items: list[Any]) -> Any:
+def _tuple_like(value: tuple[Any, ...], items: list[Any]) -> Any:
     return type(value)(*items) if hasattr(value, "_fields") else tuple(items)

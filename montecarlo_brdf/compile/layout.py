@@ -8,15 +8,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.compile.bind import Instruction
+
+if TYPE_CHECKING:
+    from llvmlite.ir import IRBuilder as Builder
+    from llvmlite.ir import Value
+    from numba.core.base import BaseContext as Context
+    from numba.core.types import Type
+    from numba.core.typing.context import Context as Typing
+    from numba.core.typing.templates import Signature
+
+    Args = Sequence[Value]
+
+#: The last argument of a model's functions: a number, or a tuple of such, often a NamedTuple.
+Numbers = float | tuple["Numbers", ...]
+#: None for a number, (type, shapes of the fields) for a tuple.
+Shape = tuple[type, tuple["Shape", ...]] | None
 
 
 class Layout(NamedTuple):
     """Where each number of each channel stands; equal layouts share a kernel."""
 
-    shape: Any
+    shape: Shape
     places: tuple[tuple[int, ...], ...]  # per channel: the place of every number
 
     def key(self) -> tuple[Any, ...]:
@@ -24,7 +39,7 @@ class Layout(NamedTuple):
         return _described(self.shape), self.places
 
 
-def shape_of(value: Any) -> Any:
+def shape_of(value: Numbers) -> Shape:
     """None for a number, (type, shapes of the fields) for a NamedTuple or tuple."""
     if isinstance(value, tuple):
         return type(value), tuple(shape_of(v) for v in value)
@@ -32,7 +47,7 @@ def shape_of(value: Any) -> Any:
     return None
 
 
-def numbers_of(value: Any) -> Iterator[float]:
+def numbers_of(value: Numbers) -> Iterator[float]:
     """All numbers of a nested tuple in order."""
     if isinstance(value, tuple):
         for field in value:
@@ -41,14 +56,14 @@ def numbers_of(value: Any) -> Iterator[float]:
         yield float(value)
 
 
-def _described(shape: Any) -> Any:
+def _described(shape: Shape) -> object:
     if shape is None:
         return None
     kind, fields = shape
     return kind.__name__, getattr(kind, "_fields", ()), tuple(map(_described, fields))
 
 
-def pack(channels: Sequence[Any], first: int) -> tuple[Layout, list[float]]:
+def pack(channels: Sequence[Numbers], first: int) -> tuple[Layout, list[float]]:
     """Layout and numbers of K parameter sets, the numbers starting at place `first`."""
     numbers: list[float] = []
     places: list[list[int]] = [[] for _ in channels]
@@ -61,12 +76,12 @@ def pack(channels: Sequence[Any], first: int) -> tuple[Layout, list[float]]:
     return Layout(shape_of(channels[0]), tuple(map(tuple, places))), numbers
 
 
-def following(shape: Any, first: int) -> Layout:
+def following(shape: Shape, first: int) -> Layout:
     """The layout of one parameter set of a shape whose numbers start at place `first`."""
     return Layout(shape, (tuple(range(first, first + _count(shape))),))
 
 
-def _count(shape: Any) -> int:
+def _count(shape: Shape) -> int:
     return 1 if shape is None else sum(_count(s) for s in shape[1])
 
 
@@ -88,15 +103,15 @@ class Unpack(Instruction):
         layout, one = self.layout, _numba_type(self.layout.shape)
 
         @intrinsic
-        def unpack(typing: Any, reals: Any) -> Any:
+        def unpack(typing: Typing, reals: Type) -> Any:
             result = numba.types.UniTuple(one, len(layout.places))
 
-            def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-                def number(place: int) -> Any:
+            def generate(context: Context, builder: Builder, kind: Signature, args: Args) -> Value:
+                def number(place: int) -> Value:
                     index = context.get_constant(numba.types.intp, place)
                     return builder.load(builder.gep(args[0], [index]))
 
-                def made(shape: Any, places: Iterator[int]) -> Any:
+                def made(shape: Shape, places: Iterator[int]) -> Value:
                     if shape is None:
                         return number(next(places))
                     fields = [made(s, places) for s in shape[1]]
@@ -110,7 +125,7 @@ class Unpack(Instruction):
         return unpack
 
 
-def _numba_type(shape: Any) -> Any:
+def _numba_type(shape: Shape) -> Type:
     """The numba type of a shape; a tuple of equal types is a uniform one, as numba would type
     it."""
     import numba
@@ -141,8 +156,8 @@ class Row(Instruction):
         from numba.extending import intrinsic
 
         @intrinsic
-        def row(typing: Any, reals: Any, k: Any) -> Any:
-            def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        def row(typing: Typing, reals: Type, k: Type) -> Any:
+            def generate(context: Context, builder: Builder, kind: Signature, args: Args) -> Value:
                 return builder.gep(args[0], [args[1]])
 
             return reals(reals, k), generate
@@ -170,8 +185,8 @@ class Buffer(Instruction):
         size = self.size
 
         @intrinsic
-        def buffer(typing: Any) -> Any:
-            def generate(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        def buffer(typing: Typing) -> Any:
+            def generate(context: Context, builder: Builder, kind: Signature, args: Args) -> Value:
                 room = cgutils.alloca_once(builder, ir.DoubleType(), size=size)
                 room.align = 64  # or half of all vectors straddle two lines of the cache
                 return room

@@ -86,7 +86,7 @@ def _skip_linear_algebra() -> None:
         from numba.np import arraymath
     finally:
         linalg.ensure_blas = check
-    arraymath.ensure_blas = check
+    arraymath.ensure_blas = check  # type: ignore[attr-defined]
 
 
 def linked(library: Any, name: str, entry: str) -> Any:

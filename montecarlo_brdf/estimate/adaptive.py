@@ -19,7 +19,7 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import charts_of, integrand, query, samplers_of
 from montecarlo_brdf.estimate.subject import functions_of, identity_of
-from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.model import Model, ParameterSet, channels
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.statistics import Estimate, estimates_of
@@ -57,7 +57,7 @@ def check_plan(plan: Plan) -> None:
 
 
 def albedo(
-    model: Model, p: Any, wo: Vec, plan: Plan, sampler: str = "cosine"
+    model: Model, p: ParameterSet, wo: Vec, plan: Plan, sampler: str = "cosine"
 ) -> tuple[list[Estimate], bool]:
     """Directional albedo per channel by a plan with a target or a method, and whether it got there.
 
@@ -76,7 +76,7 @@ def albedo(
 
 
 def _until(
-    model: Model, p: Any, wo: Vec, plan: Plan, picked: Method | None
+    model: Model, p: ParameterSet, wo: Vec, plan: Plan, picked: Method | None
 ) -> tuple[list[Estimate], bool]:
     """Try methods until one reaches the target; the last word is the last one's."""
     tried: list[tuple[Setting, Outcome]] = []
@@ -96,7 +96,7 @@ def _until(
     return estimates_of(outcome.states, best.channels, story), outcome.reached
 
 
-def suited(model: Model, p: Any, wo: Vec, plan: Plan) -> Method:
+def suited(model: Model, p: ParameterSet, wo: Vec, plan: Plan) -> Method:
     """The first method that the probe accepts for a fixed number of samples."""
     size = max(FIRST, plan.samples // max(1, plan.replicates))
     few = plan._replace(target_error=TARGETS[1], replicates=4)
@@ -163,7 +163,7 @@ def told(method: Method, rejected: tuple[str, ...] = ()) -> str:
 
 
 @functools.lru_cache(maxsize=4096)
-def prepare(model: Model, p: Any, kind: object, method: Method) -> Setting:
+def prepare(model: Model, p: ParameterSet, kind: object, method: Method) -> Setting:
     """Kernel and numbers of a case. `kind` keeps equal tuples of different variants apart."""
     layout, numbers = pack([model.prepared(c) for c in channels(p)], moments.QUERY)
     mean = integrand(model, Quantity.ALBEDO, method.sampler)

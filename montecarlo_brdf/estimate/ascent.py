@@ -13,7 +13,7 @@ from array import array
 from typing import Any, NamedTuple
 
 from montecarlo_brdf import student
-from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import Layout
 from montecarlo_brdf.estimate import work
@@ -48,7 +48,7 @@ AT, STOP, NEXT, TAKEN, SIZES, TABLE = 10, 11, 12, 13, 14, 15
 COLUMNS = 6  # samples of a replicate and the shape of the point set
 #: places in `reals` from the target on: (target, fewest samples, need that ends it, how much an
 #: error may fall from one size to the next), then a factor for each look
-FEWEST, HOPELESS, FALL, FACTORS = 1, 2, 3, 4
+FEWEST, HOPELESS, STEEPEST, FACTORS = 1, 2, 3, 4
 
 MOMENTS: Any = hole()
 HIGHEST: Any = hole()
@@ -56,7 +56,7 @@ PROBED: Any = hole()  # how many directions, 0 for none
 CHANNELS: Any = hole()
 
 
-def climb(ints: Any, reals: Any, out: Any) -> None:
+def climb(ints: Ints, reals: Reals, out: Out) -> None:
     """Look at the sizes of the table, smallest first, until the target is met.
 
     out: the states of the last look as `moments` leaves them, the largest probed value of each
@@ -85,7 +85,7 @@ def climb(ints: Any, reals: Any, out: Any) -> None:
             return
         if worst <= reals[at] and max(need, reals[at + FEWEST]) <= ints[4]:
             return
-        ints[NEXT] += stride(worst, reals[at] * reals[at + FALL], ints[SIZES] - ints[NEXT])
+        ints[NEXT] += stride(worst, reals[at] * reals[at + STEEPEST], ints[SIZES] - ints[NEXT])
 
 
 def stride(worst: float, reachable: float, left: int) -> int:
@@ -93,7 +93,7 @@ def stride(worst: float, reachable: float, left: int) -> int:
     return 2 if worst > reachable and left > 2 else 1
 
 
-def widest(states: Any, width: int, count: int, factor: float) -> float:
+def widest(states: Reals, width: int, count: int, factor: float) -> float:
     """The largest relative half-width over the channels, from the means of the replicates."""
     worst = 0.0
     floor = FLOOR * math.sqrt(count * (count - 1.0))
@@ -113,7 +113,7 @@ def widest(states: Any, width: int, count: int, factor: float) -> float:
     return worst
 
 
-def needed(states: Any, width: int, count: int, end: int) -> float:
+def needed(states: Reals, width: int, count: int, end: int) -> float:
     """Samples that the probed values at states[end...] demand, beside the means."""
     need = 0.0
     for k in range(width):

@@ -14,10 +14,10 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Buffer, Unpack, pack
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.sampling.independent import independent_axis
 from montecarlo_brdf.sampling.slopes import coordinates, direction
 
@@ -45,7 +45,7 @@ class Cut(NamedTuple):
     numbers: Array
 
 
-def cell_at(x: float, b: float, reals: Any, at: int, nb: int) -> int:
+def cell_at(x: float, b: float, reals: Reals, at: int, nb: int) -> int:
     """The cell of a place in the table: so many edges lie below it."""
     column, row = 0, 0
     for k in range(COLUMNS - 1):
@@ -56,7 +56,7 @@ def cell_at(x: float, b: float, reals: Any, at: int, nb: int) -> int:
     return column * ROWS + row
 
 
-def counts(ints: Any, reals: Any, out: Any) -> None:
+def counts(ints: Ints, reals: Reals, out: Out) -> None:
     """Count draws [start, start + n) of a stream into out; its last place is for rejected ones.
 
     ints = (key, start, n, nx, nb, place of the cells).
@@ -86,7 +86,7 @@ def counts(ints: Any, reals: Any, out: Any) -> None:
         i += m
 
 
-def cells_of(ints: Any, reals: Any, out: Any) -> None:
+def cells_of(ints: Ints, reals: Reals, out: Out) -> None:
     """out[j] = the cell of the j-th given direction; ints = (place of the directions, n, nx, nb,
     place of the cells)."""
     at = ints[4]
@@ -97,7 +97,7 @@ def cells_of(ints: Any, reals: Any, out: Any) -> None:
         out[j] = float(cell_at(x * ints[2], b * ints[3], reals, at, ints[3]))
 
 
-def densities(ints: Any, reals: Any, out: Any) -> None:
+def densities(ints: Ints, reals: Reals, out: Out) -> None:
     """The probability of each square of a table, from its middle, or from a place at random in it.
 
     ints = (first square, squares, nx, nb, place of wo and the smallest slope, key); out = the
@@ -129,7 +129,9 @@ def densities(ints: Any, reals: Any, out: Any) -> None:
         done += m
 
 
-def counted(model: Model, p: Any, cut: Cut, key: int, samples: int, threads: int = 1) -> Array:
+def counted(
+    model: Model, p: ParameterSet, cut: Cut, key: int, samples: int, threads: int = 1
+) -> Array:
     """How many draws of the model's sampler lie in each cell, and last how many were rejected."""
     import numpy as np
 
@@ -147,7 +149,8 @@ def counted(model: Model, p: Any, cut: Cut, key: int, samples: int, threads: int
 
     ends = [samples * k // threads for k in range(threads + 1)]
     with concurrent.futures.ThreadPoolExecutor(threads) as pool:
-        return np.sum(list(pool.map(share, ends[:-1], ends[1:])), axis=0)
+        total: Array = np.sum(list(pool.map(share, ends[:-1], ends[1:])), axis=0)
+    return total
 
 
 def placed(model: Model, cut: Cut, w: Array) -> NDArray[np.int64]:
@@ -161,7 +164,7 @@ def placed(model: Model, cut: Cut, w: Array) -> NDArray[np.int64]:
 
 
 def tabulated(
-    model: Model, p: Any, place: tuple[float, ...], size: tuple[int, int], key: int = 0
+    model: Model, p: ParameterSet, place: tuple[float, ...], size: tuple[int, int], key: int = 0
 ) -> tuple[Array, Array]:
     """(probabilities, directions) of nx x nb squares, x first; directions only with a key. place:
     wo and the smallest slope."""

@@ -10,13 +10,14 @@ import math
 from array import array
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Unpack, pack
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand, samplers_of
-from montecarlo_brdf.model import Model
-from montecarlo_brdf.sampling.directions import Sampler
+from montecarlo_brdf.model import Model, Prepared
+from montecarlo_brdf.sampling.charts import Row
+from montecarlo_brdf.sampling.directions import Given, Sampler
 from montecarlo_brdf.statistics import SAME
 from montecarlo_brdf.vectors import Vec
 
@@ -51,7 +52,7 @@ class Ends(NamedTuple):
         return math.sqrt(sum(v for v in variances if math.isfinite(v)) / ACROSS) / samples
 
 
-def weights(ints: Any, reals: Any, out: Any) -> None:
+def weights(ints: Ints, reals: Reals, out: Out) -> None:
     """out[2 j], out[2 j + 1] = cos and f cos/pdf of the draw for u_j.
 
     ints = (n, place of wo), after which stand the numbers.
@@ -65,7 +66,7 @@ def weights(ints: Any, reals: Any, out: Any) -> None:
         out[2 * j + 1] = INTEGRAND(u, given, p)
 
 
-def at_ends(model: Model, ready: Any, wo: Vec) -> Ends:
+def at_ends(model: Model, ready: Prepared, wo: Vec) -> Ends:
     """The ends of the model's sampler, nothing without one; ready: prepared parameters."""
     if model.sample is None:
         return Ends()
@@ -80,7 +81,7 @@ def at_ends(model: Model, ready: Any, wo: Vec) -> Ends:
     return Ends(max(_mean(lost[:half]), _mean(lost[half:])), weights)
 
 
-def _rows(model: Model, ready: Any, wo: Vec) -> list[list[tuple[float, float]]]:
+def _rows(model: Model, ready: Prepared, wo: Vec) -> list[list[tuple[float, float]]]:
     """(cos, weight) in the cells of each row."""
     layout, numbers = pack([ready], 0)
     names: dict[str, object] = {"SAMPLE": model.sample, "PARAMETERS": Unpack(layout)}
@@ -97,7 +98,7 @@ def _rows(model: Model, ready: Any, wo: Vec) -> list[list[tuple[float, float]]]:
     return [pairs[k : k + OCTAVES] for k in range(0, n, OCTAVES)]
 
 
-def unknown(u: Any, given: Any, p: Any) -> float:
+def unknown(u: Row, given: Given, p: Prepared) -> float:
     """The weight where nothing tells it."""
     return math.nan
 

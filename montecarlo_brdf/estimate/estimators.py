@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
+from montecarlo_brdf.compile.bind import Function
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import adaptive, quantity
 from montecarlo_brdf.estimate.arguments import check_subject, check_theta
@@ -13,7 +14,7 @@ from montecarlo_brdf.estimate.plan import REPLICATES, Plan
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import BLIND, charts_of, integrand, samplers_of
 from montecarlo_brdf.estimate.subject import Subject
-from montecarlo_brdf.model import Model, NoParams
+from montecarlo_brdf.model import Model, NoParams, ParameterSet
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.vectors import Vec, from_degrees
@@ -21,7 +22,7 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 
 def directional_albedo(
     model: Model,
-    p: Any,
+    p: ParameterSet | list[ParameterSet],
     theta_o_deg: float | Sequence[float],
     *,
     phi_o_deg: float = 0.0,
@@ -64,7 +65,9 @@ def directional_albedo(
     return found[0] if len(found) == 1 else found
 
 
-def _each(function: Any, model: Model, p: Any, angles: Any, rest: dict[str, Any]) -> list[Any]:
+def _each(
+    function: Callable[..., Any], model: Model, p: Any, angles: Any, rest: dict[str, Any]
+) -> list[Any]:
     """One result per parameter set, angle, or both (nested)."""
     if isinstance(p, list):
         return [function(model, one, angles, **rest) for one in p]
@@ -73,7 +76,7 @@ def _each(function: Any, model: Model, p: Any, angles: Any, rest: dict[str, Any]
 
 def reverse_albedo(
     model: Model,
-    p: Any,
+    p: ParameterSet,
     theta_i_deg: float,
     *,
     phi_i_deg: float = 0.0,
@@ -104,7 +107,7 @@ def reverse_albedo(
 
 def bihemispherical_albedo(
     model: Model,
-    p: Any,
+    p: ParameterSet,
     *,
     sampler: str = "cosine",
     points: str = "sobol",
@@ -128,7 +131,7 @@ def bihemispherical_albedo(
     return _one(model, p, Quantity.BIHEMISPHERICAL, (0.0, 0.0, 1.0), sampler, plan)
 
 
-def _one(model: Model, p: Any, of: Quantity, fixed: Vec, sampler: str, plan: Plan) -> Any:
+def _one(model: Model, p: ParameterSet, of: Quantity, fixed: Vec, sampler: str, plan: Plan) -> Any:
     model = model.of(p)
     offered = (*samplers_of(model, of), *charts_of(model))
     if sampler not in offered:
@@ -139,7 +142,11 @@ def _one(model: Model, p: Any, of: Quantity, fixed: Vec, sampler: str, plan: Pla
 
 
 def hemisphere_integral(
-    function: Any, p: Any = NoParams(), *, sampler: str = "uniform", plan: Plan = Plan()
+    function: Function,
+    p: ParameterSet = NoParams(),
+    *,
+    sampler: str = "uniform",
+    plan: Plan = Plan(),
 ) -> Estimate:
     """The integral of a function over the hemisphere, per solid angle.
 

@@ -13,7 +13,7 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.estimate.samplers import query
 from montecarlo_brdf.estimate.subject import Subject, subject_of
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
 from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.statistics import Estimate, estimate
@@ -22,7 +22,7 @@ from montecarlo_brdf.vectors import Vec
 
 def estimates(
     model: Model,
-    p: Any,
+    p: ParameterSet,
     fixed: Vec,
     integrands: Sequence[Integrand],
     plan: Plan,

@@ -15,11 +15,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from montecarlo_brdf.bits import smaller, u64
-from montecarlo_brdf.compile.bind import Bound, Function, bound, hole
+from montecarlo_brdf.compile.bind import Bound, Function, Ints, Out, Reals, bound, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
-from montecarlo_brdf.compile.layout import Buffer, Layout, Unpack
+from montecarlo_brdf.compile.layout import Buffer, Layout, Numbers, Unpack
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.sampling import points as point_sets
+from montecarlo_brdf.sampling.charts import Row
+from montecarlo_brdf.sampling.directions import Given
 from montecarlo_brdf.sampling.points import NONE, replicate_key
 
 BLOCK = 512
@@ -53,7 +55,7 @@ SLOTS: Any = hole()  # integrands
 NAMES = ("FIRST", "SECOND", "THIRD", "FOURTH", "FIFTH")
 
 
-def moments(ints: Any, reals: Any, out: Any) -> None:
+def moments(ints: Ints, reals: Reals, out: Out) -> None:
     """Add samples [start, start + count) of replicates [first, first + many) to `out`.
 
     ints = (key, first, many, start, count, shape of the point set); reals = query and parameters;
@@ -88,7 +90,7 @@ def moments(ints: Any, reals: Any, out: Any) -> None:
             i += m
 
 
-def row(rows: Any, j: int) -> Any:
+def row(rows: Sequence[Reals], j: int) -> Row:
     """The numbers of point j."""
     return (
         rows[0][j], rows[1][j], rows[2][j], rows[3][j],
@@ -96,7 +98,7 @@ def row(rows: Any, j: int) -> Any:
     )  # fmt: skip
 
 
-def advance(source: Any, target: Any, m: int, query: Any) -> None:
+def advance(source: Sequence[Reals], target: Sequence[Out], m: int, query: Given) -> None:
     """Take one step for all points of a block."""
     for j in range(m):
         (
@@ -105,22 +107,22 @@ def advance(source: Any, target: Any, m: int, query: Any) -> None:
         ) = STEP(row(source, j), query)  # fmt: skip
 
 
-def as_made(u: Any, given: Any) -> Any:
+def as_made(u: Row, given: Given) -> Row:
     """In place of a step that is not needed."""
     return u
 
 
-def shaped(ints: Any) -> Any:
+def shaped(ints: Ints) -> Any:
     """The shape of a point set that has one."""
     return u64(ints[5]), u64(ints[6]), u64(ints[7]), u64(ints[8]), u64(ints[9])
 
 
-def shapeless(ints: Any) -> Any:
+def shapeless(ints: Ints) -> Any:
     """In place of the shape for point sets that need none: quicker to compile."""
     return NONE
 
 
-def store(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
+def store(u: Row, query: Given, p: Numbers, x: Out, at: int) -> None:
     """Evaluate the integrands, each into its slot of the block.
 
     One function for up to five: the compiler drops what SLOTS excludes, and a chain of functions
@@ -137,7 +139,7 @@ def store(u: Any, query: Any, p: Any, x: Any, at: int) -> None:
         x[at + 4 * ROOM] = FIFTH(u, query, p)
 
 
-def merge_block(x: Any, start: int, m: int, out: Any, at: int) -> None:
+def merge_block(x: Reals, start: int, m: int, out: Out, at: int) -> None:
     """Merge x[start : start + m] into the state at out[at].
 
     Values are taken from the first one, so a constant has exactly zero spread (and not the first

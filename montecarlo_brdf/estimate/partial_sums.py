@@ -12,10 +12,13 @@ import hashlib
 import json
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.statistics import Moments
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.estimate.work import Job
 
 FORMAT = "brdf-check partial sums 1"
 EVERY = 10.0  # seconds between two writes
@@ -38,7 +41,7 @@ class PartialSums:
         self._jobs: dict[str, Any] = _read(content) if content else {}
         self._written = time.monotonic()
 
-    def begun(self, job: Any) -> Begun | None:
+    def begun(self, job: Job) -> Begun | None:
         """What is known of a job."""
         found = self._jobs.get(digest(job))
         if found is None:
@@ -46,7 +49,7 @@ class PartialSums:
         calls, stacks = found
         return Begun(calls, [[[(k, Moments(*m)) for k, m in s] for s in row] for row in stacks])
 
-    def keep(self, job: Any, calls: int, stacks: Stacks) -> None:
+    def keep(self, job: Job, calls: int, stacks: Stacks) -> None:
         """Remember where a job stands; from time to time, write it down."""
         self._jobs[digest(job)] = calls, [[tuple(stack) for stack in row] for row in stacks]
         if time.monotonic() - self._written > EVERY:
@@ -60,7 +63,7 @@ class PartialSums:
         self._written = time.monotonic()
 
 
-def digest(job: Any) -> str:
+def digest(job: Job) -> str:
     """Hash of everything that the states of a job depend on."""
     return _hash(repr((job.kernel.key, tuple(job.reals), *job[2:])))
 

@@ -6,13 +6,14 @@ Arrays of directions have the shape (n, 3), one unit vector per row.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.bind import Function, Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Unpack, pack
 from montecarlo_brdf.estimate.samplers import weighted
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, ParameterSet
 
 if TYPE_CHECKING:
     import numpy as np
@@ -27,7 +28,7 @@ WRITE: Any = hole()
 DRAWN = 4  # numbers per draw: x, y, z and the weight, NaN if the sampler returns none
 
 
-def values(ints: Any, reals: Any, out: Any) -> None:
+def values(ints: Ints, reals: Reals, out: Out) -> None:
     """out[j] = FUNCTION(wo_j, wi_j, p); ints = (n, place of the first direction)."""
     p = PARAMETERS(reals)[0]
     for j in range(ints[0]):
@@ -36,7 +37,7 @@ def values(ints: Any, reals: Any, out: Any) -> None:
         out[j] = FUNCTION(wo, (reals[at + 3], reals[at + 4], reals[at + 5]), p)
 
 
-def draws(ints: Any, reals: Any, out: Any) -> None:
+def draws(ints: Ints, reals: Reals, out: Out) -> None:
     """out[4 j ...] = FUNCTION(wo_j, u_j, p), a drawn direction and its weight."""
     p = PARAMETERS(reals)[0]
     for j in range(ints[0]):
@@ -46,12 +47,12 @@ def draws(ints: Any, reals: Any, out: Any) -> None:
         WRITE(FUNCTION(wo, u, p), out, DRAWN * j)
 
 
-def write_direction(w: Any, out: Any, at: Any) -> None:
+def write_direction(w: Sequence[float], out: Out, at: int) -> None:
     """A sampler that returns (x, y, z)."""
     out[at], out[at + 1], out[at + 2] = w[0], w[1], w[2]
 
 
-def write_weighted(w: Any, out: Any, at: Any) -> None:
+def write_weighted(w: Sequence[float], out: Out, at: int) -> None:
     """A sampler that returns (x, y, z, weight)."""
     out[at], out[at + 1], out[at + 2], out[at + 3] = w[0], w[1], w[2], w[3]
 
@@ -59,7 +60,7 @@ def write_weighted(w: Any, out: Any, at: Any) -> None:
 class Pointwise:
     """f, sample and pdf of a model with one parameter set, on arrays."""
 
-    def __init__(self, model: Model, p: Any) -> None:
+    def __init__(self, model: Model, p: ParameterSet) -> None:
         self.model = model.of(p)
         layout, self._numbers = pack([self.model.prepared(p)], 0)
         self._unpack = Unpack(layout)
@@ -80,7 +81,7 @@ class Pointwise:
         return out[:, :3], out[:, 3]
 
     def _run(
-        self, template: Any, a: ArrayLike, b: ArrayLike, width: int, **names: object
+        self, template: Function, a: ArrayLike, b: ArrayLike, width: int, **names: object
     ) -> Array:
         import numpy as np
 

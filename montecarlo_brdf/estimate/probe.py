@@ -10,9 +10,10 @@ import math
 import numbers
 from typing import Any
 
+from montecarlo_brdf.compile.bind import Function
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.loading import raised
-from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.model import Model, ParameterSet, Prepared, channels
 from montecarlo_brdf.vectors import Vec, from_degrees, mirrored
 
 #: Ordinary directions and numbers: any of them must work for any model.
@@ -20,7 +21,7 @@ DIRECTIONS = (from_degrees(20.0, 0.0), from_degrees(50.0, 130.0), from_degrees(7
 UNIFORMS = (0.3, 0.6, 0.4)
 
 
-def check(model: Model, p: Any) -> None:
+def check(model: Model, p: ParameterSet) -> None:
     """Raise ModelError unless f, sample and pdf return what the contract says."""
     model = model.of(p)
     for one in channels(p):
@@ -36,8 +37,9 @@ def check(model: Model, p: Any) -> None:
             _number(model, "pdf", called(model, "pdf", model.pdf, *pair, ready))
 
 
-def _drawn(model: Model, ready: Any) -> tuple[Any, ...]:
-    """One result of `sample`."""
+def _drawn(model: Model, ready: Prepared) -> tuple[Any, ...]:
+    """One result of `sample`, which the model has."""
+    assert model.sample
     drawn = called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)
     if not isinstance(drawn, tuple) or len(drawn) not in (3, 4):
         raise ModelError(
@@ -47,7 +49,7 @@ def _drawn(model: Model, ready: Any) -> tuple[Any, ...]:
     return drawn
 
 
-def called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
+def called(model: Model, member: str, function: Function, *arguments: Any) -> Any:
     """The result, NaN where Python raises what compiled arithmetic does not."""
     try:
         value = function(*arguments)
@@ -63,14 +65,14 @@ def called(model: Model, member: str, function: Any, *arguments: Any) -> Any:
         raise ModelError(f"{member} of model {model.name} {raised(error, file)}{told}") from error
 
 
-def _number(model: Model, member: str, value: Any) -> None:
+def _number(model: Model, member: str, value: object) -> None:
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
         raise ModelError(
             f"{member} of model {model.name} must return a number, not {_shown(value)}"
         )
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     kind = "None" if value is None else f"a value of type {type(value).__name__}"
     return f"{kind} of length {len(value)}" if isinstance(value, (tuple, list)) else kind
 
@@ -84,7 +86,7 @@ def returns_weight(model: Model) -> bool:
     return len(_drawn(model, ready)) == 4
 
 
-def highest(model: Model, ready: Any, wo: Vec) -> tuple[float, float]:
+def highest(model: Model, ready: Prepared, wo: Vec) -> tuple[float, float]:
     """The largest f and the largest f cos at the mirror direction, at wo, and 64 directions in the
     plane of incidence.
 
@@ -96,7 +98,7 @@ def highest(model: Model, ready: Any, wo: Vec) -> tuple[float, float]:
     return max((v for v, _ in found), default=0.0), max((v for _, v in found), default=0.0)
 
 
-def horizon_exponent(model: Model, ready: Any, wo: Vec) -> float:
+def horizon_exponent(model: Model, ready: Prepared, wo: Vec) -> float:
     """The s in f ~ mu_i^-s as wi nears the horizon, the largest over 16 azimuths.
 
     The m-th moment of f cos/pdf is finite under pdf ~ mu_i^c iff m (s - 1 + c) < 1 + c.
@@ -115,11 +117,11 @@ def _at_cosine(mu: float, phi: float) -> Vec:
     return s * math.cos(phi), s * math.sin(phi), mu
 
 
-def _value(model: Model, wo: Vec, wi: Vec, ready: Any) -> float:
+def _value(model: Model, wo: Vec, wi: Vec, ready: Prepared) -> float:
     return number_from(model, "f", model.f, wo, wi, ready)
 
 
-def number_from(model: Model, member: str, function: Any, *arguments: Any) -> float:
+def number_from(model: Model, member: str, function: Function, *arguments: Any) -> float:
     """What a function of a model returns, NaN where that is no number."""
     value = called(model, member, function, *arguments)
     return float(value) if isinstance(value, numbers.Real) else math.nan

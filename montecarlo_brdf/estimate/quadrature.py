@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from montecarlo_brdf.compile.bind import Ints, Out, Reals
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.sampling.slopes import coordinates, direction
 
@@ -19,9 +20,11 @@ SMALLEST = 1e-7
 MISSED = 10.0
 #: directions and the solid angle that each stands for
 Probes = tuple[Array, Array]
+#: numbers (n,) of directions (n, 3)
+OfArray = Callable[[Array], Array]
 
 
-def directions_at(ints: Any, reals: Any, out: Any) -> None:
+def directions_at(ints: Ints, reals: Reals, out: Out) -> None:
     """out[4 j ...] = direction and area of the j-th (x, b); ints = (n,), reals = (wo, scale, all
     (x, b))."""
     wo, scale = (reals[0], reals[1], reals[2]), reals[3]
@@ -30,7 +33,7 @@ def directions_at(ints: Any, reals: Any, out: Any) -> None:
         out[4 * j], out[4 * j + 1], out[4 * j + 2], out[4 * j + 3] = direction(x, b, wo, scale)
 
 
-def coordinates_at(ints: Any, reals: Any, out: Any) -> None:
+def coordinates_at(ints: Ints, reals: Reals, out: Out) -> None:
     """out[2 j ...] = (x, b) of the j-th direction."""
     wo, scale = (reals[0], reals[1], reals[2]), reals[3]
     for j in range(ints[0]):
@@ -101,7 +104,10 @@ SIZES = ((24, 16), (48, 32), (96, 64), (128, 256), (192, 768))
 
 
 def integrate(
-    function: Any, coordinates: Coordinates, target: float = 1e-6, probes: tuple[Probes, ...] = ()
+    function: OfArray,
+    coordinates: Coordinates,
+    target: float = 1e-6,
+    probes: tuple[Probes, ...] = (),
 ) -> Integral:
     """Integral of function(wi) over the hemisphere; nodes grow until two sizes agree.
 
@@ -130,11 +136,12 @@ def _highest_around(values: Array) -> Array:
     """Of every node and its eight neighbours the highest; b goes around."""
     b = np.maximum(values, np.maximum(np.roll(values, 1, axis=1), np.roll(values, -1, axis=1)))
     padded = np.pad(b, ((1, 1), (0, 0)), mode="edge")
-    return np.maximum(b, np.maximum(padded[:-2], padded[2:]))
+    highest: Array = np.maximum(b, np.maximum(padded[:-2], padded[2:]))
+    return highest
 
 
 def _missed(
-    function: Any, probe: Probes, coordinates: Coordinates, nodes: Array, highest: Array
+    function: OfArray, probe: Probes, coordinates: Coordinates, nodes: Array, highest: Array
 ) -> float:
     """The integral of what is far above the values at the nodes around it."""
     wi, angle = probe

@@ -12,6 +12,7 @@ from enum import StrEnum
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.compile.bind import Bound, bound, hole, takes_more
+from montecarlo_brdf.compile.layout import Numbers
 from montecarlo_brdf.sampling.charts import Row, smooth_step
 from montecarlo_brdf.sampling.directions import (
     DIRECTIONS,
@@ -57,39 +58,39 @@ class Quantity(StrEnum):
 # ways to a direction ------------------------------------------------------------------------------
 
 
-def chosen(u: Row, given: Given, p: Any) -> float:
+def chosen(u: Row, given: Given, p: Numbers) -> float:
     """x of a direction that is chosen for this point."""
     return VALUE(given, DIRECTION(u, given, p), p)
 
 
-def made(u: Row, given: Given, p: Any) -> float:
+def made(u: Row, given: Given, p: Numbers) -> float:
     """x of a direction that was made before: u is what `steps` lead to."""
     return VALUE(given, WEIGH(u, given), p)
 
 
-def in_one_step(u: Row, given: Given, p: Any) -> Row:
+def in_one_step(u: Row, given: Given, p: Numbers) -> Row:
     """A direction that knows nothing of the model."""
     return WEIGH(FIRST(u, given), given)
 
 
-def in_three_steps(u: Row, given: Given, p: Any) -> Row:
+def in_three_steps(u: Row, given: Given, p: Numbers) -> Row:
     """The same for charts of lobes."""
     return WEIGH(THIRD(SECOND(FIRST(u, given), given), given), given)
 
 
-def from_everywhere(u: Row, given: Given, p: Any) -> float:
+def from_everywhere(u: Row, given: Given, p: Numbers) -> float:
     """x with the given direction cosine-weighted by u[2] and u[3]."""
     wo = random_hemisphere_cosine(u[2], u[3])
     return INSIDE(u, (wo[0], wo[1], wo[2], given[3]), p)
 
 
-def periodised(u: Row, given: Given, p: Any) -> float:
+def periodised(u: Row, given: Given, p: Numbers) -> float:
     """x made periodic in the polar coordinate u[0]: what lattices need."""
     w, _, slope = smooth_step(u[0])
     return INSIDE((min(w, LAST), u[1], u[2], u[3], u[4]), given, p) * slope
 
 
-def periodised_there(u: Row, given: Given, p: Any) -> float:
+def periodised_there(u: Row, given: Given, p: Numbers) -> float:
     """The same in u[2], the polar coordinate of `from_everywhere`."""
     v, _, steep = smooth_step(u[2])
     return INSIDE((u[0], u[1], min(v, LAST), u[3], u[4]), given, p) * steep
@@ -98,40 +99,40 @@ def periodised_there(u: Row, given: Given, p: Any) -> float:
 # what a direction contributes ---------------------------------------------------------------------
 
 
-def at(given: Given, w: Row, p: Any) -> float:
+def at(given: Given, w: Row, p: Numbers) -> float:
     """f cos/pdf."""
     return PAIR(given, w, p) * w[3]
 
 
-def at_draw(given: Given, w: Row, p: Any) -> float:
+def at_draw(given: Given, w: Row, p: Numbers) -> float:
     """The same where directions may be rejected."""
     if w[2] <= 0.0:
         return 0.0
     return PAIR(given, w, p) * w[3]
 
 
-def at_weight(given: Given, w: Row, p: Any) -> float:
+def at_weight(given: Given, w: Row, p: Numbers) -> float:
     """The same where the sampler returns it."""
     if w[2] <= 0.0:
         return 0.0
     return w[3]
 
 
-def at_panels(given: Given, w: Row, p: Any) -> float:
+def at_panels(given: Given, w: Row, p: Numbers) -> float:
     """The same for one direction in each panel between the kinks."""
     high = PAIR(given, w, p) + PAIR(given, (-w[0], -w[1], w[2]), p)
     low = PAIR(given, w[4:], p) + PAIR(given, (-w[4], -w[5], w[6]), p)
     return high * w[3] + low * w[7]
 
 
-def lit_at_weight(given: Given, w: Row, p: Any) -> float:
+def lit_at_weight(given: Given, w: Row, p: Numbers) -> float:
     """L f cos/pdf where the sampler returns the rest."""
     if w[2] <= 0.0:
         return 0.0
     return w[3] * SKY(w[:3], given[3])
 
 
-def squared(given: Given, w: Row, p: Any) -> float:
+def squared(given: Given, w: Row, p: Numbers) -> float:
     """E[x^2] of a sampler that is blind to lobes, whose cos/pdf is BLIND(cos), from draws by the
     model's own, which sees its lobe."""
     if w[2] <= 0.0:
@@ -140,32 +141,32 @@ def squared(given: Given, w: Row, p: Any) -> float:
     return f * f * w[3] * BLIND(w[2])
 
 
-def rejected(given: Given, w: Row, p: Any) -> float:
+def rejected(given: Given, w: Row, p: Numbers) -> float:
     """1 where the model's sampler rejects."""
     return 1.0 if w[2] <= 0.0 else 0.0
 
 
-def density(given: Given, w: Row, p: Any) -> float:
+def density(given: Given, w: Row, p: Numbers) -> float:
     """pdf per solid angle."""
     return PDF(given[:3], w[:3], p) * w[4]
 
 
-def alone(given: Given, w: Row, p: Any) -> float:
+def alone(given: Given, w: Row, p: Numbers) -> float:
     """A function of one direction, per solid angle."""
     return F(w[:3], p) * w[4]
 
 
-def forward(given: Given, w: Row, p: Any) -> float:
+def forward(given: Given, w: Row, p: Numbers) -> float:
     """f with the view given."""
     return F(given[:3], w[:3], p)
 
 
-def backward(given: Given, w: Row, p: Any) -> float:
+def backward(given: Given, w: Row, p: Numbers) -> float:
     """f with the light given."""
     return F(w[:3], given[:3], p)
 
 
-def lit(given: Given, w: Row, p: Any) -> float:
+def lit(given: Given, w: Row, p: Numbers) -> float:
     """f L with the view given; given[3] tells apart lights that share a kernel."""
     return F(given[:3], w[:3], p) * SKY(w[:3], given[3])
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import functools
-from typing import Any
 
 from montecarlo_brdf.estimate import probe, quantity
 from montecarlo_brdf.estimate.quantity import Integrand, Quantity
 from montecarlo_brdf.estimate.subject import functions_of
-from montecarlo_brdf.model import Model, channels
+from montecarlo_brdf.model import Model, ParameterSet, channels
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec
 
@@ -49,7 +48,7 @@ def integrand(model: Model, of: Quantity, sampler: Sampler | str, **more: object
     return quantity.integrand(of, sampler, {**functions_of(model), **more}, own and weighted(model))
 
 
-def query(model: Model, p: Any, fixed: Vec) -> tuple[float, ...]:
+def query(model: Model, p: ParameterSet, fixed: Vec) -> tuple[float, ...]:
     """What integrands get as `given`: the given direction and the width of the narrowest lobe."""
     if model.lobe is None or lobe_chart(model) is None:
         return (*fixed, 0.0)

@@ -8,12 +8,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
-from montecarlo_brdf.compile.layout import Buffer, Row, Unpack, following, numbers_of, shape_of
+from montecarlo_brdf.compile.layout import (
+    Buffer,
+    Row,
+    Shape,
+    Unpack,
+    following,
+    numbers_of,
+    shape_of,
+)
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand, samplers_of
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.sampling.directions import Sampler
 
 if TYPE_CHECKING:
@@ -34,7 +42,7 @@ CHUNK = 1024  # nodes of a call
 TOGETHER = 256  # nodes in each LINE
 
 
-def means(ints: Any, reals: Any, out: Any) -> None:
+def means(ints: Ints, reals: Reals, out: Out) -> None:
     """out[j] += sum_i w_i INTEGRAND(u_i, place_j, p_j); ints = (places, nodes, place of the first
     place, numbers of a place, place of the first node)."""
     u0, u1, u4, x = LINE(), LINE(), LINE(), LINE()
@@ -55,7 +63,7 @@ def means(ints: Any, reals: Any, out: Any) -> None:
             out[j] += total
 
 
-def pairs(ints: Any, reals: Any, out: Any) -> None:
+def pairs(ints: Ints, reals: Reals, out: Out) -> None:
     """out[j] = FUNCTION(wo_j, wi_j, p_j); ints = (pairs, 1, place of the first, numbers of one)."""
     for j in range(ints[0]):
         at = ROW(reals, ints[2] + j * ints[3])
@@ -66,22 +74,22 @@ def pairs(ints: Any, reals: Any, out: Any) -> None:
 class Rows(NamedTuple):
     """Parameter sets as rows of numbers, one per place, as a kernel takes them."""
 
-    base: Any
+    base: ParameterSet
     values: Array  # (n, parameters)
-    shape: Any
+    shape: Shape
     numbers: Array  # (n, numbers of a set as the model gets it)
 
-    def columns(self, fields: Any) -> dict[str, Array]:
+    def columns(self, fields: type[ParameterSet]) -> dict[str, Array]:
         """The columns whose names another NamedTuple has too."""
         names = self.base._fields
         return {n: self.values[:, names.index(n)] for n in fields._fields if n in names}
 
     def parameters(self, k: int) -> Any:
         """The parameter set of row k."""
-        return type(self.base)(*map(float, self.values[k]))
+        return self.base._make(map(float, self.values[k]))
 
 
-def rows(model: Model, columns: Mapping[str, Any], base: Any, n: int) -> Rows:
+def rows(model: Model, columns: Mapping[str, Any], base: ParameterSet, n: int) -> Rows:
     """n parameter sets: `base` with the columns of n numbers in place of some fields.
 
     A model that prepares its parameters does so once per different set.
@@ -94,7 +102,7 @@ def rows(model: Model, columns: Mapping[str, Any], base: Any, n: int) -> Rows:
     if model.prepare is None:
         return Rows(base, table, shape_of(base), table)
     sets, which = np.unique(table, axis=0, return_inverse=True)
-    ready = [model.prepared(type(base)(*map(float, s))) for s in sets]
+    ready = [model.prepared(base._make(map(float, s))) for s in sets]
     numbers = np.array([list(numbers_of(r)) for r in ready])
     return Rows(base, table, shape_of(ready[0]), numbers[which.reshape(-1)])
 

@@ -14,6 +14,7 @@ from enum import StrEnum
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.compile.layout import Numbers
 from montecarlo_brdf.sampling import charts
 from montecarlo_brdf.sampling.charts import Row
 from montecarlo_brdf.sampling.slopes import FINEST, direction
@@ -113,7 +114,7 @@ def slopes(u: Row, given: Given) -> Row:
     return x, y, z, z * area, area, 0.0, 0.0, 0.0
 
 
-def own(u: Row, given: Given, p: Any) -> Row:
+def own(u: Row, given: Given, p: Numbers) -> Row:
     """Drawn by the model's sampler, with its density."""
     wo = given[:3]
     w = SAMPLE(wo, (u[0], u[1], u[4]), p)
@@ -123,19 +124,19 @@ def own(u: Row, given: Given, p: Any) -> Row:
     return w[0], w[1], w[2], w[2] / density, 1.0 / density, 0.0, 0.0, 0.0
 
 
-def weighted(u: Row, given: Given, p: Any) -> Row:
+def weighted(u: Row, given: Given, p: Numbers) -> Row:
     """The same with the weight f cos/pdf that the sampler returns in place of cos/pdf."""
     w = SAMPLE(given[:3], (u[0], u[1], u[4]), p)
     return w[0], w[1], w[2], w[3], 0.0, 0.0, 0.0, 0.0
 
 
-def undensed(u: Row, given: Given, p: Any) -> Row:
+def undensed(u: Row, given: Given, p: Numbers) -> Row:
     """The same with nothing but the direction."""
     w = SAMPLE(given[:3], (u[0], u[1], u[4]), p)
     return w[0], w[1], w[2], 0.0, 0.0, 0.0, 0.0, 0.0
 
 
-def probed(u: Row, given: Given, p: Any) -> Row:
+def probed(u: Row, given: Given, p: Numbers) -> Row:
     """Direction u[0] of PROBES, with the largest cos/pdf that a chart has there."""
     x, y, z = probe(given[:3], u[0])
     steepest = STEEPEST(given[:3], (x, y, z), given[3]) if z > 0.0 else 0.0

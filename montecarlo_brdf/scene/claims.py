@@ -12,11 +12,11 @@ import math
 import types
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import furnace
-from montecarlo_brdf.compile.bind import plain
+from montecarlo_brdf.compile.bind import hole, plain
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
@@ -37,7 +37,7 @@ from montecarlo_brdf.scene.standard import Standard
 from montecarlo_brdf.scene.surface import Lobe, Surface
 from montecarlo_brdf.vectors import Vec, from_degrees
 
-F: Any = None
+F: Callable[..., float] = hole()
 Measure = Callable[[Plan], list[Measurement]]  # one measurement per channel
 
 ROUNDING = 1e-9  # relative: f of large exponents in two orders of evaluation
@@ -84,7 +84,8 @@ def _remembered(plan: ScenePlan, wo: Vec, sampling: Plan) -> list[Measurement]:
     at = (wo, sampling._replace(progress=None))
     if at not in plan.known:
         plan.known[at] = radiance.measure(plan, wo, sampling)
-    return plan.known[at]
+    found: list[Measurement] = plan.known[at]
+    return found
 
 
 def _shaded(
@@ -147,7 +148,8 @@ def _furnace(
         model, p = lobe.model, lobe.sets[channel]
         case = Case(model, p, [view[0]], view[1], tolerance=tolerance)
         plan.known[at] = Furnace(*(_times(factor, c) for c in furnace.at_angle(case, view[0])))
-    return plan.known[at]
+    found: Furnace = plan.known[at]
+    return found
 
 
 def _times(factor: float, claim: MeanClaim) -> MeanClaim:

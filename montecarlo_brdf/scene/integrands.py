@@ -8,11 +8,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
 
 from montecarlo_brdf.compile.bind import hole
+from montecarlo_brdf.sampling.charts import Row
 from montecarlo_brdf.sampling.warps import pdf_hemisphere_cosine, random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.scene.radiance import Lit
+    from montecarlo_brdf.scene.skies import Shape
 
 F: Callable[..., float] = hole()
 SAMPLE: Callable[..., tuple[float, ...]] = hole()
@@ -24,23 +29,23 @@ SKY_PDF: Callable[..., float] = hole()
 PI = math.pi
 
 
-def cosine_sample(u1: float, u2: float, p: Any) -> Vec:
+def cosine_sample(u1: float, u2: float, p: Shape) -> Vec:
     """For a sky without a sampler of its own."""
     return random_hemisphere_cosine(u1, u2)
 
 
-def cosine_pdf(w: Vec, p: Any) -> float:
+def cosine_pdf(w: Vec, p: Shape) -> float:
     """For a sky without a sampler of its own."""
     return pdf_hemisphere_cosine(w)
 
 
-def cosine(u: Any, wo: Any, p: Any) -> float:
+def cosine(u: Row, wo: Vec, p: Lit) -> float:
     """wi cosine-weighted over the hemisphere."""
     wi = random_hemisphere_cosine(u[0], u[1])
     return F((wo[0], wo[1], wo[2]), wi, p.model) * SKY(wi, p.sky) * PI
 
 
-def sky(u: Any, wo: Any, p: Any) -> float:
+def sky(u: Row, wo: Vec, p: Lit) -> float:
     """wi from the sky's sampler."""
     wi = SKY_SAMPLE(u[0], u[1], p.sky)
     if wi[2] <= 0.0:
@@ -49,7 +54,7 @@ def sky(u: Any, wo: Any, p: Any) -> float:
     return value * wi[2] / SKY_PDF(wi, p.sky)
 
 
-def own(u: Any, wo: Any, p: Any) -> float:
+def own(u: Row, wo: Vec, p: Lit) -> float:
     """wi from the model's sampler."""
     view = (wo[0], wo[1], wo[2])
     drawn = SAMPLE(view, (u[0], u[1], u[2]), p.model)
@@ -59,7 +64,7 @@ def own(u: Any, wo: Any, p: Any) -> float:
     return F(view, wi, p.model) * SKY(wi, p.sky) * wi[2] / PDF(view, wi, p.model)
 
 
-def weighted(u: Any, wo: Any, p: Any) -> float:
+def weighted(u: Row, wo: Vec, p: Lit) -> float:
     """wi from the model's sampler, which returns its weight f cos / pdf."""
     drawn = SAMPLE((wo[0], wo[1], wo[2]), (u[0], u[1], u[2]), p.model)
     if drawn[2] <= 0.0:
@@ -67,7 +72,7 @@ def weighted(u: Any, wo: Any, p: Any) -> float:
     return drawn[3] * SKY(drawn[:3], p.sky)
 
 
-def mixed(u: Any, wo: Any, p: Any) -> float:
+def mixed(u: Row, wo: Vec, p: Lit) -> float:
     """wi from the model's sampler or the sky's, half each, over the density of the mixture.
 
     The halves of u[0] choose and are stretched, so that each sampler gets a whole point set.

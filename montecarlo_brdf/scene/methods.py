@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.surface import ignores_directions
 
 WIDE = 0.1  # share of a cap's solid angle that a lobe must fill to be sampled by the cap alone
 
 
-def unscaled(model: Model, p: Any) -> tuple[Any, float]:
+def unscaled(model: Model, p: ParameterSet) -> tuple[ParameterSet, float]:
     """The parameter set with its scale taken out, and the scale: f is proportional to it."""
     name = model.scales_with
     if not name:
@@ -19,7 +17,7 @@ def unscaled(model: Model, p: Any) -> tuple[Any, float]:
     return p._replace(**{name: 1.0}), float(getattr(p, name))
 
 
-def method_of(model: Model, p: Any, shape: Any) -> str:
+def method_of(model: Model, p: ParameterSet, shape: skies.Shape) -> str:
     """The sampler for a lobe under a sky: the cheapest that sees both."""
     if ignores_directions(model):
         constant = isinstance(shape, skies.Constant)
@@ -31,7 +29,7 @@ def method_of(model: Model, p: Any, shape: Any) -> str:
     return "own" if model.sample else "cosine"
 
 
-def _covers(model: Model, p: Any, shape: skies.Cap) -> bool:
+def _covers(model: Model, p: ParameterSet, shape: skies.Cap) -> bool:
     """Whether a lobe is wide enough for uniform samples of a cap to see all of it."""
     if model.lobe is None:
         return True

@@ -6,14 +6,16 @@ The integrands are those of `scene.integrands`; only the sky is turned into each
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.compile.bind import bound, hole
+from montecarlo_brdf.compile.bind import Ints, Out, Reals, bound, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
-from montecarlo_brdf.compile.layout import Unpack, pack
+from montecarlo_brdf.compile.layout import Numbers, Unpack, pack
 from montecarlo_brdf.estimate.subject import functions_of
+from montecarlo_brdf.estimate.work import Progress
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key
 from montecarlo_brdf.scene import integrands, skies
@@ -21,10 +23,16 @@ from montecarlo_brdf.scene.plan import Work
 from montecarlo_brdf.scene.radiance import Lit, method_name
 from montecarlo_brdf.vectors import Vec, dot
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
 POINTS: Any = hole()
 INTEGRAND: Any = hole()
 PARAMETERS: Any = hole()
-INNER: Any = hole()
+INNER: Callable[..., Any] = hole()
 CHANNELS: Any = hole()
 PLACE = 12  # numbers per point: view, tangent, bitangent, normal
 CHUNK = 2048  # points per call: progress, threads, Ctrl-C
@@ -33,13 +41,13 @@ CHUNK = 2048  # points per call: progress, threads, Ctrl-C
 class Placed(NamedTuple):
     """A sky with the frame it is seen from."""
 
-    sky: Any
+    sky: Numbers
     tangent: Vec
     bitangent: Vec
     normal: Vec
 
 
-def world(w: Vec, q: Any) -> Vec:
+def world(w: Vec, q: Placed) -> Vec:
     """A direction of the frame in the world."""
     t, b, n = q.tangent, q.bitangent, q.normal
     return (
@@ -49,18 +57,19 @@ def world(w: Vec, q: Any) -> Vec:
     )
 
 
-def placed_value(w: Vec, q: Any) -> float:
+def placed_value(w: Vec, q: Placed) -> float:
     """The sky's radiance or pdf in a direction of the frame."""
-    return INNER(world(w, q), q.sky)
+    value: float = INNER(world(w, q), q.sky)
+    return value
 
 
-def placed_sample(u1: float, u2: float, q: Any) -> Vec:
+def placed_sample(u1: float, u2: float, q: Placed) -> Vec:
     """A direction drawn from the sky, in the frame."""
     w = INNER(u1, u2, q.sky)
     return dot(w, q.tangent), dot(w, q.bitangent), dot(w, q.normal)
 
 
-def pixels(ints: Any, reals: Any, out: Any) -> None:
+def pixels(ints: Ints, reals: Reals, out: Out) -> None:
     """out[2 (j CHANNELS + k)] = mean and, next to it, mean square over `samples` at point j.
 
     ints = (points, place of the first in reals, samples, key, index of the first).
@@ -108,15 +117,20 @@ def kernel_of(work: Work) -> tuple[Kernel, list[float]]:
 
 
 def means(
-    work: Work, places: Any, samples: int, key: int, threads: int, progress: Any = None
-) -> tuple[Any, Any]:
+    work: Work,
+    places: Array,
+    samples: int,
+    key: int,
+    threads: int,
+    progress: Progress | None = None,
+) -> tuple[Array, Array]:
     """Mean and its standard error per point and parameter set, for places (n, PLACE)."""
     import numpy as np
 
     call, numbers = kernel_of(work)
     starts = range(0, len(places), CHUNK)
 
-    def one(start: int) -> Any:
+    def one(start: int) -> Array:
         part = places[start : start + CHUNK]
         reals = np.concatenate([numbers, part.ravel()]).astype(np.float64)
         out = np.empty((len(part), len(work.sets), 2))

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.compile.bind import bound
+from montecarlo_brdf.compile.layout import Numbers
 from montecarlo_brdf.estimate import probe, trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
@@ -14,7 +15,7 @@ from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.estimate.subject import Subject, functions_of
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, ParameterSet, Prepared
 from montecarlo_brdf.sampling.points import DIMENSIONS
 from montecarlo_brdf.scene import integrands, skies
 from montecarlo_brdf.scene.methods import unscaled
@@ -28,8 +29,8 @@ from montecarlo_brdf.vectors import Vec, mirrored
 class Lit(NamedTuple):
     """What an integrand needs: prepared parameters of the model, and the sky's shape."""
 
-    model: Any
-    sky: Any
+    model: Prepared
+    sky: Numbers
 
 
 def measure(plan: ScenePlan, wo: Vec, sampling: Plan) -> list[Measurement]:
@@ -100,7 +101,7 @@ def _values(lobe: Lobe, plan: ScenePlan, wo: Vec) -> list[list[float]]:
     return rows
 
 
-def value_of(model: Model, p: Any, wo: Vec, wi: Vec) -> float:
+def value_of(model: Model, p: ParameterSet, wo: Vec, wi: Vec) -> float:
     """f(wo, wi) by the model's plain Python function; 0 below the horizon."""
     function = getattr(model.f, "py_func", model.f)
     above = (wi[0], wi[1], abs(wi[2]) or 5e-324)
@@ -157,7 +158,9 @@ def method_name(work: Work) -> str:
     return "weighted" if alone else work.method
 
 
-def reason_unfit(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> str | None:
+def reason_unfit(
+    work: Work, e: Estimate, p: ParameterSet, shape: skies.Shape, wo: Vec
+) -> str | None:
     """Too few samples met the light or the lobe for the error bar to be believed."""
     if not math.isfinite(e.mean) or skies.below_horizon(shape):
         return None
@@ -167,7 +170,9 @@ def reason_unfit(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> str | 
     return unfit.reason if unfit else None
 
 
-def _hidden(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> trust.Unfit | None:
+def _hidden(
+    work: Work, e: Estimate, p: ParameterSet, shape: skies.Shape, wo: Vec
+) -> trust.Unfit | None:
     """A lobe of which directions know nothing."""
     if work.model.sample and work.method != "sky" or ignores_directions(work.model):
         return None

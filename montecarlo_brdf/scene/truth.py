@@ -9,25 +9,35 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.estimate.pointwise import Pointwise
-from montecarlo_brdf.judge.claim import Reference
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.judge.claim import Kind, Reference
+from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.references import _irradiance
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.scene import ORIGIN, Scene
 from montecarlo_brdf.scene.surface import ignores_directions
+from montecarlo_brdf.scene.texels import Image
 from montecarlo_brdf.truth import true_albedo
 from montecarlo_brdf.vectors import Vec, mirrored
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    OfArray = Callable[[Array], Array]
+
 UNKNOWN = 0.002  # width of a lobe that a model does not tell: looked for, never relied on
-ORDER = ("closed form", "declared", "independent", "quadrature of the same f")
+#: the last of several kinds is that of their sum
+ORDER = (Kind.CLOSED_FORM, Kind.DECLARED, Kind.INDEPENDENT, Kind.SAME_F)
 
 
 def reference(scene: Scene, wo: Vec, channel: int) -> Reference:
     """The expected L_o of one channel."""
-    parts = [Reference(scene.emission[channel], 0.0, "closed form", "emission")]
+    parts = [Reference(scene.emission[channel], 0.0, Kind.CLOSED_FORM, "emission")]
     for lobe in scene.surface.lobes:  # type: ignore[union-attr]
         weight, p = lobe.weights[channel], lobe.sets[channel]
         if weight == 0.0:
@@ -54,12 +64,12 @@ def _sum(parts: list[Reference]) -> Reference:
     return Reference(value, error, kind, " + ".join(dict.fromkeys(p.source for p in parts)))
 
 
-def direct(scene: Scene, model: Model, p: Any, wo: Vec, channel: int) -> Reference:
+def direct(scene: Scene, model: Model, p: ParameterSet, wo: Vec, channel: int) -> Reference:
     """The exact sum over delta lights."""
     placed = [(*light.at(ORIGIN), light.colour[channel]) for light in scene.lights]
     lit = [(w, factor * e) for w, factor, e in placed if w[2] > 0.0 and e]
     if not lit:
-        return Reference(0.0, 0.0, "closed form", "no light")
+        return Reference(0.0, 0.0, Kind.CLOSED_FORM, "no light")
     if ignores_directions(model):
         irradiance = math.fsum(e * w[2] for w, e in lit)
         return constant_f(model, p, irradiance)._replace(source="exact sum of lights")
@@ -67,17 +77,17 @@ def direct(scene: Scene, model: Model, p: Any, wo: Vec, channel: int) -> Referen
     terms = [f * e * w[2] for f, (w, e) in zip(map(float, values), lit, strict=True)]
     # plain and compiled f differ by the rounding of powers with large exponents
     error = 1e-12 * math.fsum(map(abs, terms))
-    return Reference(math.fsum(terms), error, "quadrature of the same f", "exact sum of lights")
+    return Reference(math.fsum(terms), error, Kind.SAME_F, "exact sum of lights")
 
 
-def constant_f(model: Model, p: Any, irradiance: float) -> Reference:
+def constant_f(model: Model, p: ParameterSet, irradiance: float) -> Reference:
     """f E for an f that ignores directions."""
     up = (0.0, 0.0, 1.0)
     value = float(model.f(up, up, model.prepared(p))) * irradiance
-    return Reference(value, 4e-15 * abs(value), "closed form", "f E")
+    return Reference(value, 4e-15 * abs(value), Kind.CLOSED_FORM, "f E")
 
 
-def _under(sky: skies.Sky, model: Model, p: Any, wo: Vec, channel: int) -> Reference:
+def _under(sky: skies.Sky, model: Model, p: ParameterSet, wo: Vec, channel: int) -> Reference:
     shape = sky.shapes[channel]
     if ignores_directions(model):
         found = constant_f(model, p, irradiance(sky, channel))
@@ -105,14 +115,14 @@ def irradiance(sky: skies.Sky, channel: int) -> float:
         return _irradiance.cap(gamma, math.atan2(math.hypot(axis[0], axis[1]), axis[2]))
     if isinstance(shape, skies.Harmonics):
         return _irradiance.harmonics(shape.coefficients)
-    if isinstance(shape, skies.Image):
+    if isinstance(shape, Image):
         plane = sky.keep[2 * (channel if len(sky.keep) > 2 else 0)]
         return _irradiance.image([float(v) for v in plane.sum(axis=1)], plane.shape[1])
     return _irradiance.constant()
 
 
 @functools.lru_cache(maxsize=4096)
-def _of_shape(model: Model, p: Any, shape: Any, wo: Vec) -> Reference:
+def _of_shape(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Reference:
     """A lobe under a sky of unit scale."""
     known = _closed(model, p, shape, wo)
     if known is not None:
@@ -122,22 +132,22 @@ def _of_shape(model: Model, p: Any, shape: Any, wo: Vec) -> Reference:
         if truth:
             return Reference(*truth)
     value, error = _quadrature(model, p, shape, wo)
-    return Reference(value, error, "quadrature of the same f", "adaptive quadrature")
+    return Reference(value, error, Kind.SAME_F, "adaptive quadrature")
 
 
-def _albedo(model: Model, p: Any, wo: Vec) -> Any:
+def _albedo(model: Model, p: ParameterSet, wo: Vec) -> Any:
     turned = {} if model.isotropic else {"phi_o": math.atan2(wo[1], wo[0])}
     return true_albedo(model.name, wo[2], **p._asdict(), **model.picks, **turned)
 
 
-def _closed(model: Model, p: Any, shape: Any, wo: Vec) -> Reference | None:
+def _closed(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Reference | None:
     if isinstance(shape, skies.Cosine) and shape.axis == (0.0, 0.0, 1.0) and model.built_in:
         truth = _irradiance.cosine_sky(model.name, wo[2], shape.exponent, **p._asdict())
         return Reference(*truth) if truth else None
     return None
 
 
-def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float]:
+def _quadrature(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> tuple[float, float]:
     import numpy as np
 
     from montecarlo_brdf.checks import _truth
@@ -147,11 +157,11 @@ def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float
     at = Pointwise(model, p)
     sky = _array_sky(shape)
 
-    def g(wi: Any) -> Any:
+    def g(wi: Array) -> Array:
         return at.f(wo, wi) * sky(wi)
 
     kind, width = (model.lobe[0], float(model.lobe[1](p))) if model.lobe else (None, UNKNOWN)
-    if isinstance(shape, skies.Image):
+    if isinstance(shape, Image):
         return _texels(g, shape)
     if isinstance(shape, (skies.Cap, skies.Cosine)):
         whole = isinstance(shape, skies.Cosine)
@@ -174,26 +184,26 @@ def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float
     return _sky.adaptive(g, _sky.hemisphere(wo, width))
 
 
-def _array_sky(shape: Any) -> Any:
+def _array_sky(shape: skies.Shape) -> OfArray:
     """L on an array of directions (n, 3)."""
     import numpy as np
 
     if isinstance(shape, skies.Cosine):
         return lambda w: np.maximum(0.0, w @ np.array(shape.axis)) ** shape.exponent
-    if isinstance(shape, (skies.Cap, skies.Constant, skies.Image)):
+    if isinstance(shape, (skies.Cap, skies.Constant, Image)):
         return lambda w: np.ones(len(w))  # the chart ends where the cap does
-    function = skies.FUNCTIONS[type(shape)].radiance
+    function: Callable[..., Any] = skies.FUNCTIONS[type(shape)].radiance  # of arrays too
     return lambda w: function(tuple(w.T), shape)
 
 
-def _texels(g: Any, shape: Any) -> tuple[float, float]:
+def _texels(g: OfArray, shape: Image) -> tuple[float, float]:
     """Sum over texels of L times the integral of f cos over the texel, by two Gauss rules."""
     from montecarlo_brdf.references import _sky
 
     return _sky.texels(g, _texel_values(shape))
 
 
-def _texel_values(shape: Any) -> Any:
+def _texel_values(shape: Image) -> Array:
     import ctypes
 
     import numpy as np

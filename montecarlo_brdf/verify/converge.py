@@ -130,7 +130,7 @@ def reference_of(case: Case) -> Reference:
 def _claimed_as(case: Case, sampler: str, points: str) -> str:
     """Jittered grids spread two numbers at a time: with a lobe chosen by a third they converge like
     independent points."""
-    grid = points == "stratified" and sampler == "own"
+    grid = points == "stratified" and sampler == Sampler.OWN
     return "independent" if grid and _draws.chooses(case, case.theta_o_deg[0]) else points
 
 
