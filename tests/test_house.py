@@ -1,7 +1,7 @@
 """The rules of the house, each with a small wrong example that it must see.
 
-Strings never steer, parameters say their type, names in prose resolve, tests are named after what
-they hold. The order of imports has a test of its own, test_imports.py.
+Strings never steer, parameters say their type, a constant is one thing, names in prose resolve,
+tests are named after what they hold. The order of imports has a test of its own, test_imports.py.
 """
 from __future__ import annotations
 
@@ -141,6 +141,27 @@ def test_parameters_say_their_type() -> None:
 def test_what_counts_as_a_type() -> None:
     source = "Thing = Any\ndef f(a: int, b: Any, c, *d: Thing, e: list[Any]): pass"
     assert list(typed(source, aliases([source]))) == [True, False, False, True, False]
+
+
+# a name is one thing ------------------------------------------------------------------------------
+
+
+def bound_twice(source: str) -> list[str]:
+    """Constants of a module that are bound more than once: the first reader gets the last value."""
+    nodes = ast.parse(source).body
+    targets = [t for n in nodes if isinstance(n, ast.Assign) for t in n.targets]
+    targets += [n.target for n in nodes if isinstance(n, ast.AnnAssign)]
+    names = [n.id for t in targets for n in ast.walk(t) if isinstance(n, ast.Name)]
+    return sorted({n for n in names if names.count(n) > 1 and n.isupper()})
+
+
+def test_no_constant_is_bound_twice() -> None:
+    found = {p.name: bound_twice(source) for p, source in SOURCES.items()}
+    assert {name: twice for name, twice in found.items() if twice} == {}
+
+
+def test_constants_bound_twice_are_seen() -> None:
+    assert bound_twice("FALL, MOST = 32.0, 20\nAT, FALL = 1, 3\nMOST_OF: int = 5") == ["FALL"]
 
 
 # names in prose resolve ---------------------------------------------------------------------------
