@@ -97,4 +97,5 @@ def cubic(values: Reals, t: Reals) -> Reals:
         x * (x - 1.0) * (x - 3.0) / -2.0,
         x * (x - 1.0) * (x - 2.0) / 6.0,
     )
-    return sum(w * values[first + k] for k, w in enumerate(weights))
+    found: Reals = sum(w * values[first + k] for k, w in enumerate(weights))
+    return found

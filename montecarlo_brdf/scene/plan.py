@@ -11,13 +11,13 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.colour import Colour
-from montecarlo_brdf.scene.methods import method_of, unscaled
 from montecarlo_brdf.scene.scene import ORIGIN, Scene, as_lobes
 from montecarlo_brdf.scene.skies import Shape, Sky
-from montecarlo_brdf.scene.surface import Lobe, Parameters, Surface
+from montecarlo_brdf.scene.surface import Lobe, Parameters, Surface, ignores_directions
 from montecarlo_brdf.vectors import Vec
 
 Angles = tuple[float, float]  # theta, phi in degrees
+WIDE = 0.1  # share of a cap's solid angle that a lobe must fill to be sampled by the cap alone
 
 
 class Item(NamedTuple):
@@ -129,9 +129,37 @@ def _shared(lobe: Lobe, sky: Sky, items: list[Item]) -> Work | None:
     if not sets:
         items.append(Item(f"lobe {lobe.name}", False, "it reflects nothing", len(shares)))
         return None
-    work = Work(lobe.name, lobe.model, tuple(sets), tuple(shares), method_of(lobe.model, *sets[0]))
+    work = Work(lobe.name, lobe.model, tuple(sets), tuple(shares), _method(lobe.model, *sets[0]))
     _explain(work, items)
     return work
+
+
+def unscaled(model: Model, p: Parameters) -> tuple[Parameters, float]:
+    """The parameter set with its scale taken out, and the scale: f is proportional to it."""
+    name = model.scales_with
+    if not name:
+        return p, 1.0
+    return p._replace(**{name: 1.0}), float(getattr(p, name))
+
+
+def _method(model: Model, p: Parameters, shape: Shape) -> str:
+    """The sampler for a lobe under a sky: the cheapest that sees both."""
+    if ignores_directions(model):
+        constant = isinstance(shape, skies.Constant)
+        return "one value" if constant else "sky" if skies.concentrated(shape) else "cosine"
+    if isinstance(shape, skies.Cap) and _covers(model, p, shape):
+        return "sky"  # no sample meets the cap's edge, where the mixture's integrand jumps
+    if skies.concentrated(shape):
+        return "mixed" if model.sample and model.pdf else "sky"
+    return "own" if model.sample else "cosine"
+
+
+def _covers(model: Model, p: Parameters, shape: skies.Cap) -> bool:
+    """Whether a lobe is wide enough for uniform samples of a cap to see all of it."""
+    if model.lobe is None:
+        return True
+    width = 2.0 * float(model.lobe[1](p))  # half vectors turn half as fast as directions
+    return width * width > WIDE * shape.depth
 
 
 def _explain(work: Work, items: list[Item]) -> None:

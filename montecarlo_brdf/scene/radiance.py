@@ -17,8 +17,7 @@ from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import DIMENSIONS
 from montecarlo_brdf.scene import integrands, skies
-from montecarlo_brdf.scene.methods import unscaled
-from montecarlo_brdf.scene.plan import ScenePlan, Work
+from montecarlo_brdf.scene.plan import ScenePlan, Work, unscaled
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.surface import Lobe, ignores_directions
 from montecarlo_brdf.statistics import FLOOR, Estimate
