@@ -11,6 +11,9 @@ import math
 
 from montecarlo_brdf.stability.specimens.textbook_ggx import (
     Params,
+    domain,
+    lobe,
+    same_as,
     visibility,
 )
 from montecarlo_brdf.vectors import Vec, half_vector

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from montecarlo_brdf.stability.specimens.textbook_ggx import Params
+from montecarlo_brdf.stability.specimens.textbook_ggx import Params, domain, lobe
 from montecarlo_brdf.vectors import Vec, half_vector
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from montecarlo_brdf.models.phong import Params
+from montecarlo_brdf.models.phong import Params, domain, lobe
 from montecarlo_brdf.vectors import Vec, clamped_cosine, mirrored
 
 same_as = "phong"
