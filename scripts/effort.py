@@ -18,14 +18,13 @@ import time
 from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
-
 import montecarlo_brdf
 from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.decide import decide
-from montecarlo_brdf.verify.run import RUN_ANGLES
+from montecarlo_brdf.verify.run import ANGLES as RUN_ANGLES
+from montecarlo_brdf.verify.run import SAMPLES
 
 ROOT = Path(__file__).parents[1]
 MUTANTS = ROOT / "tests" / "mutants"
@@ -44,7 +43,7 @@ def refuted(path: Path, effort: float) -> bool:
     model = montecarlo_brdf.load(str(path))
     p = model.parameters()
     case = Case(model, p, RUN_ANGLES, free=searched(model, {}), effort=effort)
-    plan = Plan(samples=RUN_SAMPLES, effort=effort)
+    plan = Plan(samples=SAMPLES, effort=effort)
     return any(decide(c, plan).verdict == "fail" for c in checks.find(meant(path)).claims(case))
 
 

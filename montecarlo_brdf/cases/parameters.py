@@ -23,9 +23,11 @@ WIDE = 50.0  # a range whose ends differ by more than this factor is searched by
 def between(low: float, high: float, t: T) -> T:
     """A value at t in [0, 1] of a range, by its logarithm where the range is wide; or many."""
     if low > 0.0 and high > WIDE * low:
-        return low * (high / low) ** t
+        t = (high / low) ** t
+        return low * t
     if low == 0.0 and high > WIDE:
-        return (1.0 + high) ** t - 1.0
+        t = (1.0 + high) ** t
+        return t - 1.0
     return low + (high - low) * t
 
 

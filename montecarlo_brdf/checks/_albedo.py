@@ -14,6 +14,7 @@ from montecarlo_brdf.estimate.samplers import BLIND, integrand, samplers_of
 from montecarlo_brdf.estimate.subject import functions_of
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:
     rows = estimates(model, case.p, wo, means, plan, ("furnace",))
     result = []
     for row, one in zip(rows, case.sets, strict=True):
-        sight = trust.look(model, one, wo)
+        sight = trust.look(model, one, wo, Sampler.OWN in chosen)
         seconds = dict(zip(blind, row[len(chosen) :], strict=False))
         named = zip(chosen, row, strict=False)
         result.append([trust.measured(s, e, sight, seconds.get(s)) for s, e in named])

@@ -34,7 +34,8 @@ def farthest(
 
     def deviation(at: Array, stage: worst.Stage) -> Array:
         due = np.array([expected(one) for one in at.tolist()])
-        return np.abs(value(at, stage) - due) / np.maximum(np.abs(due), SMALLEST)
+        found: Array = np.abs(value(at, stage) - due) / np.maximum(np.abs(due), SMALLEST)
+        return found
 
     at = worst.worst(space, deviation).at
     theta, phi = space.direction(at)

@@ -126,7 +126,8 @@ def _about_half(wo: Array, wi: Array) -> Pairs:
 
     def turned(w: Array) -> Array:
         along = np.sum(w * h, axis=1)[:, None] * h
-        return c * w + s * np.cross(h, w) + (1.0 - c) * along
+        found: Array = c * w + s * np.cross(h, w) + (1.0 - c) * along
+        return found
 
     return turned(wo), turned(wi)
 

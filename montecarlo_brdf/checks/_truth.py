@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from montecarlo_brdf.cases.case import Parameters, pointwise
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, Reference
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, Term
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.truth import true_albedo
 from montecarlo_brdf.vectors import Vec, from_degrees
@@ -18,7 +18,6 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array
     from montecarlo_brdf.estimate.quadrature import Coordinates, Probes
-    from montecarlo_brdf.mixture import Term
 
 #: numbers from which lobe coordinates learn the width of a sampler's lobe
 PILOT = 4096

@@ -72,7 +72,8 @@ def _worst(case: Case, other: Model) -> Exact:
 def shared(other: Model, p: Parameters) -> Parameters:
     """The other model's parameter set: the names they share, its defaults otherwise."""
     names = set(other.Params._fields)  # type: ignore[attr-defined]
-    return other.parameters(**{n: v for n, v in p._asdict().items() if n in names})
+    found: Parameters = other.parameters(**{n: v for n, v in p._asdict().items() if n in names})
+    return found
 
 
 def difference(

@@ -112,7 +112,8 @@ def _scale(case: Case, p: Parameters, wo: Array, wi: Array) -> Array:
     f = np.abs(pointwise(case.model, p).f(*pairs))
     f = f[np.isfinite(f) & (f > 0.0)]
     scale = np.full(len(wo), np.median(f) if len(f) else 1.0)
-    return np.fmax(scale, directions.around(pointwise(case.model, p).f, wo, wi))
+    highest: Array = np.fmax(scale, directions.around(pointwise(case.model, p).f, wo, wi))
+    return highest
 
 
 def _name(wo: Array, wi: Array) -> str:

@@ -37,6 +37,7 @@ INSIDE: Callable[..., float] = hole()
 FIRST: Callable[..., Row] = hole()
 SECOND: Callable[..., Row] = hole()
 THIRD: Callable[..., Row] = hole()
+WEIGH: Callable[..., Row] = hole()
 
 LAST = 0.9999999999999999  # the largest number below 1
 
@@ -63,17 +64,17 @@ def chosen(u: Row, given: Given, p: Any) -> float:
 
 def made(u: Row, given: Given, p: Any) -> float:
     """x of a direction that was made before: u is what `steps` lead to."""
-    return VALUE(given, u, p)
+    return VALUE(given, WEIGH(u, given), p)
 
 
 def in_one_step(u: Row, given: Given, p: Any) -> Row:
     """A direction that knows nothing of the model."""
-    return FIRST(u, given)
+    return WEIGH(FIRST(u, given), given)
 
 
 def in_three_steps(u: Row, given: Given, p: Any) -> Row:
     """The same for charts of lobes."""
-    return THIRD(SECOND(FIRST(u, given), given), given)
+    return WEIGH(THIRD(SECOND(FIRST(u, given), given), given), given)
 
 
 def from_everywhere(u: Row, given: Given, p: Any) -> float:
@@ -260,7 +261,8 @@ def probe_of(sampler: Sampler, functions: Mapping[str, object]) -> Integrand | N
 def _integrand(way: Direction, names: dict[str, object]) -> Integrand:
     template = bound(chosen, **names, **_direction(way))
     if way.drawn is None and way.blockwise:
-        return Integrand(template, way.steps, bound(made, **names), 2, way.periodic)
+        after = bound(made, **names, WEIGH=way.weigh)
+        return Integrand(template, way.steps, after, 2, way.periodic)
     sample: Any = names.get("SAMPLE")
     choosing = way.drawn is not None and takes_more(sample, 1, 2)
     return Integrand(template, (), None, 3 if choosing else 2, way.periodic)
@@ -271,7 +273,8 @@ def _direction(way: Direction) -> dict[str, object]:
     if way.drawn:
         return {"DIRECTION": way.drawn}
     inner = {1: in_one_step, 3: in_three_steps}[len(way.steps)]
-    return {"DIRECTION": inner, **dict(zip(("FIRST", "SECOND", "THIRD"), way.steps, strict=False))}
+    steps = dict(zip(("FIRST", "SECOND", "THIRD"), way.steps, strict=False))
+    return {"DIRECTION": inner, "WEIGH": way.weigh, **steps}
 
 
 def _everywhere(one: Integrand) -> Integrand:

@@ -83,13 +83,13 @@ class Sight(NamedTuple):
 
 
 @functools.lru_cache(maxsize=1024)
-def look(model: Model, one: Any, fixed: Vec) -> Sight:
+def look(model: Model, one: Any, fixed: Vec, own: bool = True) -> Sight:
     """Probe f around the mirror direction and at the horizon, and the sampler at its ends: once,
-    however often a claim takes more samples."""
+    however often a claim takes more samples. own: whether that sampler is used at all."""
     ready = model.prepared(one)
     exponent = probe.horizon_exponent(model, ready, fixed)
     signed = Property.POSITIVITY in model.disclaims
-    ends = at_ends(model, ready, fixed)
+    ends = at_ends(model, ready, fixed) if own else Ends()
     return Sight(*probe.highest(model, ready, fixed), exponent, signed, ends)
 
 

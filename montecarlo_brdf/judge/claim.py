@@ -63,8 +63,9 @@ class Exact(NamedTuple):
 def worst_of(looks: Iterable[Exact]) -> Exact:
     """The largest of some values, of equal ones the last, with the points of all."""
     looks = list(looks)
-    found = max(reversed(looks), key=lambda one: one.value)
-    return found._replace(points=sum(one.points for one in looks))
+    found: Exact = max(reversed(looks), key=lambda one: one.value)
+    whole: Exact = found._replace(points=sum(one.points for one in looks))
+    return whole
 
 
 class Fit(NamedTuple):

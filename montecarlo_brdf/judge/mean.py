@@ -33,7 +33,6 @@ CONFIRMING_REPLICATES = 64
 CONFIRMING_POINTS = "sobol"
 #: estimators that use nothing of a model but its f
 OF_F_ALONE = ("uniform", "cosine")
-OF_SAME_F = (Kind.QUADRATURE, Kind.SAME_F)  # kinds of expected values that say the same f
 
 
 def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
@@ -53,7 +52,7 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
 
 def _of_same_f(claim: MeanClaim) -> bool:
     """Whether the expected value is a quadrature of the f that is sampled."""
-    return claim.expected is not None and claim.expected.kind in OF_SAME_F
+    return claim.expected is not None and claim.expected.kind == Kind.SAME_F
 
 
 def _resolving(claim: MeanClaim, opinions: list[Opinion]) -> Opinion:

@@ -46,15 +46,28 @@ class Sampler(StrEnum):
 
 
 def uniform(u: Row, given: Given) -> Row:
-    """Uniform over the hemisphere."""
-    x, y, z = random_hemisphere(u[0], u[1])
-    return x, y, z, z * TWO_PI, TWO_PI, 0.0, 0.0, 0.0
+    """Uniform over the hemisphere, still without its weights."""
+    return *random_hemisphere(u[0], u[1]), 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+def weighed_uniform(w: Row, given: Given) -> Row:
+    """With them: what is known of the density need not lie in memory."""
+    return w[0], w[1], w[2], w[2] * TWO_PI, TWO_PI, 0.0, 0.0, 0.0
 
 
 def cosine(u: Row, given: Given) -> Row:
-    """Cosine-weighted."""
-    x, y, z = random_hemisphere_cosine(u[0], u[1])
-    return x, y, z, PI, PI / z, 0.0, 0.0, 0.0
+    """Cosine-weighted, still without its weights."""
+    return *random_hemisphere_cosine(u[0], u[1]), 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+def weighed_cosine(w: Row, given: Given) -> Row:
+    """With them."""
+    return w[0], w[1], w[2], PI, PI / w[2], 0.0, 0.0, 0.0
+
+
+def weighed(w: Row, given: Given) -> Row:
+    """A direction that has its weights."""
+    return w
 
 
 def polar(u: Row, given: Given) -> Row:
@@ -94,7 +107,7 @@ def slopes(u: Row, given: Given) -> Row:
     direction) or with its mirror image (< 0: a lobe at the direction itself); cosine-weighted where
     given[3] is 0."""
     if given[3] == 0.0:
-        return cosine(u, given)
+        return weighed_cosine(cosine(u, given), given)
     side = 1.0 if given[3] > 0.0 else -1.0
     x, y, z, area = direction(u[0], u[1], (side * given[0], side * given[1], given[2]), FINEST)
     return x, y, z, z * area, area, 0.0, 0.0, 0.0
@@ -168,6 +181,8 @@ class Direction(NamedTuple):
     #: (row, given) -> row, one after another from a point to the direction; none if the way knows
     #: the model
     steps: tuple[Callable[[Row, Given], Row], ...] = ()
+    #: what these leave out
+    weigh: Callable[[Row, Given], Row] = weighed
     #: (u, given, p) -> row, if it does
     drawn: Callable[[Row, Given, Any], Row] | None = None
     #: whether integrands are periodic in it, as lattices need them
@@ -179,8 +194,8 @@ class Direction(NamedTuple):
 
 
 DIRECTIONS = {
-    Sampler.UNIFORM: Direction((uniform,)),
-    Sampler.COSINE: Direction((cosine,), steepest=steepest_cosine),
+    Sampler.UNIFORM: Direction((uniform,), weighed_uniform),
+    Sampler.COSINE: Direction((cosine,), weighed_cosine, steepest=steepest_cosine),
     Sampler.OWN: Direction(drawn=own),
     Sampler.HALF_VECTOR: Direction(
         (polar, half_horizon, half_vector), periodic=True, steepest=steepest_half_vector

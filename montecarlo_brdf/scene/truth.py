@@ -138,6 +138,10 @@ def _closed(model: Model, p: Any, shape: Any, wo: Vec) -> Reference | None:
 
 
 def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float]:
+    import numpy as np
+
+    from montecarlo_brdf.checks import _truth
+    from montecarlo_brdf.estimate.quadrature import integrate
     from montecarlo_brdf.references import _sky
 
     at = Pointwise(model, p)
@@ -161,9 +165,12 @@ def _quadrature(model: Model, p: Any, shape: Any, wo: Vec) -> tuple[float, float
     if kind:
         return _sky.adaptive(g, _sky.around(mirrored(wo), math.pi, mirrored(wo), width))
     if not model.built_in:  # may have a lobe that it does not tell of
-        from montecarlo_brdf.references import _adaptive
-
-        return _adaptive.quadrature(lambda wi: g(wi.T), wo)[:2]
+        found = integrate(
+            lambda w: g(w) * w[:, 2],
+            _truth.coordinates(model, p, np.array(wo)),
+            probes=_truth.probes(model, p, np.array(wo)),
+        )
+        return found.value, found.error
     return _sky.adaptive(g, _sky.hemisphere(wo, width))
 
 

@@ -46,7 +46,8 @@ class Settings:
         adaptive.check_plan(self.plan)
         if tolerance is not None and not 0.0 <= tolerance < 1.0:
             raise UserError(f"tolerance must be a number in [0, 1), not {tolerance}")
-        if isinstance(self.effort, bool) or not 0.0 < self.effort <= 1.0:
+        number = isinstance(self.effort, int | float) and not isinstance(self.effort, bool)
+        if not (number and 0.0 < self.effort <= 1.0):
             raise UserError(f"effort must be a number in (0, 1], not {self.effort}")
 
     @property

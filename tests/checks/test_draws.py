@@ -35,9 +35,11 @@ def deficit(case: Case, theta: float = 45.0, seed: int = 0) -> Estimate:
 def test_rare_lobes_seams_and_directions_drawn_twice_are_no_fault_of_a_pdf(
     name: str, seed: int
 ) -> None:
-    """Decided at the first look, with a fifth of the tolerance to spare."""
+    """Of 2^14 draws 0.7 are expected within a step of a fold of the azimuth, where the difference
+    counts as up to 1: more than 9 have a probability below 1e-8. Fewer than 5: decided."""
     e = deficit(case(f"honest/{name}"), seed=seed)
-    assert e.mean < 1e-4 and e.mean + e.half_width(LEVEL / 2.0) < 0.8 * JACOBIAN_TOLERANCE
+    assert e.mean <= 9 / PLAN.samples
+    assert e.half_width(LEVEL / 2.0) + 5 / PLAN.samples < JACOBIAN_TOLERANCE
 
 
 def test_a_sampler_that_clamps_is_wrong_at_an_end_only() -> None:

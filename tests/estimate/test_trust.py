@@ -28,7 +28,7 @@ def nothing(samples: int = 16384) -> Estimate:
 @pytest.mark.parametrize("sampler", ["uniform", "cosine"])
 def test_a_lobe_that_was_never_hit(sampler: str) -> None:
     reason = reason_unfit(sampler, nothing(), Sight(1e6, 1e6, 0.0), None)
-    assert reason == f"a lobe that {sampler} sampling did not hit once in 16384 samples"
+    assert str(reason) == f"a lobe that {sampler} sampling did not hit once in 16384 samples"
 
 
 def test_black_is_black() -> None:

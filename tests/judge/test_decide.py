@@ -12,7 +12,7 @@ from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge import mean as judging
-from montecarlo_brdf.judge.claim import MeanClaim, Reference
+from montecarlo_brdf.judge.claim import Kind, MeanClaim, Reference
 from montecarlo_brdf.judge.decide import LEVEL, decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result, worst
 from montecarlo_brdf.judge.looks import FIRST_LOOK, GROWTH, looks
@@ -259,8 +259,8 @@ def test_resolves_is_a_deviation_that_the_last_look_would_have_failed() -> None:
             assert judged(claim(steady(1, 1)), m, level)[0].verdict == verdict
 
 
-@pytest.mark.parametrize(("kind", "by"), [("independent", "cosine"), ("quadrature", "own")])
-def test_what_is_resolved_of_the_same_f_is_what_the_sampler_resolves(kind: str, by: str) -> None:
+@pytest.mark.parametrize(("kind", "by"), [(Kind.INDEPENDENT, "cosine"), (Kind.SAME_F, "own")])
+def test_what_is_resolved_of_the_same_f_is_what_the_sampler_resolves(kind: Kind, by: str) -> None:
     """A deviation of the others would refute the quadrature, not the model."""
     found = {}
     for name, error in (("cosine", 1e-6), ("own", 1e-5)):

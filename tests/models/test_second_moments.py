@@ -1,9 +1,9 @@
 """The spread that estimators predict for blind samplers is the true one.
 
 `second_moment` by uniform and by cosine sampling estimates E[x^2] of the one-sample albedo
-estimator from draws by the model's own sampler; formulas and quadratures give it independently. The deviation is judged
-by Student's t at 1e-7 per value (about 1e-5 for all), plus 2e-3 where replicates of an integrand
-with a heavy tail know too little of it.
+estimator from draws by the model's own sampler; formulas and quadratures give it independently. The
+deviation is judged by Student's t at 1e-7 per value (about 1e-5 for all), plus 2e-3 where
+replicates of an integrand with a heavy tail know too little of it.
 """
 
 from __future__ import annotations

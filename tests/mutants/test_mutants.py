@@ -20,7 +20,6 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from montecarlo_brdf.verify.reproduction import RUN_SAMPLES
 
 import montecarlo_brdf
 from montecarlo_brdf import checks, loading
@@ -28,7 +27,8 @@ from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Verdict
-from montecarlo_brdf.verify.run import RUN_ANGLES
+from montecarlo_brdf.verify.run import ANGLES as RUN_ANGLES
+from montecarlo_brdf.verify.run import SAMPLES
 
 TESTS = Path(__file__).parents[1]
 MUTANTS = sorted(p for p in (TESTS / "mutants").glob("*.py") if not p.stem.startswith("test_"))
@@ -60,7 +60,7 @@ def meant(path: Path) -> str:
 def refuted(path: Path, effort: float) -> bool:
     """Whether a claim of the check meant for a mutant fails: the first that does is enough."""
     model = montecarlo_brdf.load(str(path))
-    p, plan = model.parameters(), Plan(samples=RUN_SAMPLES, effort=effort)
+    p, plan = model.parameters(), Plan(samples=SAMPLES, effort=effort)
     case = Case(model, p, RUN_ANGLES, free=searched(model, {}), effort=effort)
     claims = checks.find(meant(path)).claims(case)
     return any(decide(claim, plan).verdict == Verdict.FAIL for claim in claims)

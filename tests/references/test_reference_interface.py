@@ -8,11 +8,11 @@ import sys
 import numpy as np
 import pytest
 import vector_models as vm
+from adaptive import quadrature
 from reference_data import cosine
 
 from montecarlo_brdf import references
 from montecarlo_brdf.loading import load
-from montecarlo_brdf.references._adaptive import quadrature
 
 
 def test_names_are_those_of_models() -> None:

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 import vector_models as vm
+from adaptive import quadrature
 from reference_data import cosine
 
 from montecarlo_brdf import references
-from montecarlo_brdf.references._adaptive import quadrature
 
 ANGLES = (0.0, 55.0, 89.9)
 MASKINGS = ["smith", "separable", "walter", "walter_correlated", "kelemen", "implicit", "none"]
