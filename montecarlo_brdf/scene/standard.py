@@ -20,9 +20,8 @@ from collections.abc import Callable, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
-from montecarlo_brdf import loading
+from montecarlo_brdf.loading import build, load
 from montecarlo_brdf.model import Model, ParameterSet
-from montecarlo_brdf.model_file import build
 from montecarlo_brdf.models._half_lobe import pdf, sample
 from montecarlo_brdf.models._microfacet import half_power, half_sums
 from montecarlo_brdf.scene.colour import Colour
@@ -105,19 +104,19 @@ def _width(p: Gloss) -> float:
 
 def _model(name: str, f: Callable[..., float], **more: object) -> Model:
     """A model of this file, with the exponent as its parameter."""
-    return build(name, {"__doc__": name, "Params": Gloss, "f": f, **more}, {}, built_in=False)
+    return build(name, {"__doc__": name, "Params": Gloss, "f": f, **more})
 
 
 def _diffuse(s: Standard) -> Lobe:
     if s.gloss_on_diffuse:
         return _lobe("diffuse", s.diffuse, _model("diffuse", glossy_diffuse), Gloss(s.gloss))
-    model = loading.load("lambert_unnormalised")
+    model = load("lambert_unnormalised")
     return _lobe("diffuse", s.diffuse, model, model.parameters(c=1.0))
 
 
 def _specular(s: Standard) -> Lobe:
     if s.form is Form.PHONG:
-        model = loading.load("phong_original", norm="none")
+        model = load("phong_original", norm="none")
         return _lobe("specular", s.specular, model, model.parameters(ks=1.0, n=s.gloss))
     functions = {"sample": sample, "pdf": pdf, "lobe": ("half vector", _width)}
     return _lobe("specular", s.specular, _model("blinn", blinn, **functions), Gloss(s.gloss))
