@@ -17,7 +17,7 @@ from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import DIMENSIONS
 from montecarlo_brdf.scene import integrands, skies
-from montecarlo_brdf.scene.plan import ScenePlan, Work, unscaled
+from montecarlo_brdf.scene.plan import Method, ScenePlan, Work, unscaled
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.surface import Lobe, ignores_directions
 from montecarlo_brdf.statistics import FLOOR, Estimate
@@ -37,7 +37,7 @@ def measure(plan: ScenePlan, wo: Vec, sampling: Plan) -> list[Measurement]:
     parts: list[list[tuple[float, Estimate]]] = [[] for _ in exact]
     unfit: list[str | None] = [None] * len(exact)
     for work in plan.works:
-        if work.method == "one value":
+        if work.method is Method.ONE_VALUE:
             _add_values(work, exact)
             continue
         estimates = _estimate(work, wo, sampling)
@@ -152,7 +152,7 @@ def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str |
 
 def method_name(work: Work) -> str:
     """Its integrand: that of the weight where the sampler has no pdf."""
-    alone = work.method == "own" and work.model.pdf is None and weighted(work.model)
+    alone = work.method is Method.OWN and work.model.pdf is None and weighted(work.model)
     return "weighted" if alone else work.method
 
 
@@ -161,18 +161,18 @@ def reason_unfit(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> str | 
     if not math.isfinite(e.mean) or skies.below_horizon(shape):
         return None
     if e.mean == 0.0 and not e.largest:
-        return f"no sample of {e.samples} met light" if work.method == "own" else None
+        return f"no sample of {e.samples} met light" if work.method is Method.OWN else None
     unfit = trust.few_carry(work.method, e, e.second_moment) or _hidden(work, e, p, shape, wo)
     return unfit.reason if unfit else None
 
 
 def _hidden(work: Work, e: Estimate, p: Any, shape: Any, wo: Vec) -> trust.Unfit | None:
     """A lobe of which directions know nothing."""
-    if work.model.sample and work.method != "sky" or ignores_directions(work.model):
+    if work.model.sample and work.method is not Method.SKY or ignores_directions(work.model):
         return None
     sky = skies.FUNCTIONS[type(shape)]
     at = mirrored(wo)
-    density = sky.pdf(at, shape) if work.method == "sky" and sky.pdf else at[2] / math.pi
+    density = sky.pdf(at, shape) if work.method is Method.SKY and sky.pdf else at[2] / math.pi
     highest, _ = probe.highest(work.model, work.model.prepared(p), wo)
     expected = highest * sky.radiance(at, shape) * at[2] / density if density else 0.0
     return trust.hardly_hit(work.method, e, expected)
