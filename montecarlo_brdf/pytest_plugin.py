@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cli._project import Project
-    from montecarlo_brdf.cli._requests import Request
+    from montecarlo_brdf.cli._requests import Project, Request
 
 FILE = "brdf-check.toml"
 PYPROJECT = "pyproject.toml"
@@ -26,7 +25,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 def _speaks(path: Path) -> bool:
-    from montecarlo_brdf.cli._project import speaks
+    from montecarlo_brdf.cli._requests import speaks
 
     return speaks(path)
 
@@ -37,7 +36,7 @@ class ProjectFile(pytest.File):
     def collect(self) -> Iterable[pytest.Item]:
         """One item per model, parameter set and check."""
         from montecarlo_brdf.checks import names
-        from montecarlo_brdf.cli._project import read
+        from montecarlo_brdf.cli._requests import read
         from montecarlo_brdf.errors import UserError
 
         try:

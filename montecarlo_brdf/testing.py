@@ -22,8 +22,8 @@ from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.judge.finding import Policy, Report, Verdict
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.report.sentences import case, failures
-from montecarlo_brdf.verify.results import INTERRUPTED
+from montecarlo_brdf.report.text import case, failures
+from montecarlo_brdf.verify.question import INTERRUPTED
 from montecarlo_brdf.verify.run import run
 from montecarlo_brdf.verify.supervision import Deadline
 
@@ -65,12 +65,8 @@ def assert_conserves_energy(
 ) -> Report:
     """Nowhere is more reflected than received, in either direction.
 
-    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
-    around which searches for the worst case look at the whole ranges. options: those of
-    `assert_checks`.
-
-    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
-    UserError for a bad value, ModelError if the BRDF does not run.
+    brdf, p, options: as `assert_checks` takes them. Returns the report. Raises what it raises: with
+    what was found, where, and the likely cause.
     """
     __tracebackhide__ = True
     return assert_checks(brdf, p, ("energy",), **options)
@@ -79,32 +75,22 @@ def assert_conserves_energy(
 def assert_reciprocal(brdf: object, p: Parameters = None, **options: Unpack[Options]) -> Report:
     """f(wo, wi) = f(wi, wo).
 
-    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
-    around which searches for the worst case look at the whole ranges. options: those of
-    `assert_checks`.
-
-    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
-    UserError for a bad value, ModelError if the BRDF does not run.
+    brdf, p, options: as `assert_checks` takes them. Returns the report. Raises what it raises: with
+    what was found, where, and the likely cause.
     """
     __tracebackhide__ = True
     return assert_checks(brdf, p, ("reciprocity",), **options)
 
 
 def assert_furnace(
-    brdf: object,
-    p: Parameters = None,
-    expected: float | Callable[..., float] | None = None,
+    brdf: object, p: Parameters = None, expected: float | Callable[..., float] | None = None,
     **options: Unpack[Options],
-) -> Report:
+) -> Report:  # fmt: skip
     """The albedo is at most 1 and what it should be.
 
     expected: a number, or a function of (cos_theta_o, p); None for the model's own reference.
-    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
-    around which searches for the worst case look at the whole ranges. options: those of
-    `assert_checks`.
-
-    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
-    UserError for a bad value, ModelError if the BRDF does not run.
+    brdf, p, options: as `assert_checks` takes them. Returns the report. Raises what it raises: with
+    what was found, where, and the likely cause.
     """
     __tracebackhide__ = True
     model = as_model(brdf, p)
@@ -119,12 +105,8 @@ def assert_samples_match_pdf(
 ) -> Report:
     """Drawn directions follow pdf, which integrates to 1 less what is rejected.
 
-    brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
-    around which searches for the worst case look at the whole ranges. options: those of
-    `assert_checks`.
-
-    Returns the report. Raises AssertionError with what was found, where, and the likely cause,
-    UserError for a bad value, ModelError if the BRDF does not run.
+    brdf, p, options: as `assert_checks` takes them. Returns the report. Raises what it raises: with
+    what was found, where, and the likely cause.
     """
     __tracebackhide__ = True
     model = as_model(brdf, p)
@@ -154,14 +136,9 @@ def assert_converges(
 
 
 def assert_checks(
-    brdf: object,
-    p: Parameters = None,
-    checks: tuple[str, ...] | None = None,
-    *,
-    inconclusive: str = Policy.FAIL,
-    max_time: float = math.inf,
-    **options: Unpack[Terms],
-) -> Report:
+    brdf: object, p: Parameters = None, checks: tuple[str, ...] | None = None, *,
+    inconclusive: str = Policy.FAIL, max_time: float = math.inf, **options: Unpack[Terms],
+) -> Report:  # fmt: skip
     """Several checks at once, or all of them.
 
     brdf: as above. p: a parameter set, as a dictionary or a NamedTuple, or None for the defaults,
@@ -182,9 +159,7 @@ def assert_checks(
     return report
 
 
-def require(
-    report: Report, inconclusive: str = Policy.FAIL, reproducible: bool = True
-) -> None:
+def require(report: Report, inconclusive: str = Policy.FAIL, reproducible: bool = True) -> None:
     """Every claim of a report held.
 
     report: of any question. inconclusive: "fail" or "pass", what an undecided claim is.

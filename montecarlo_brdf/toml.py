@@ -89,28 +89,29 @@ class Table:
             if key not in self._known:
                 raise self.error(unknown(f"key of {self.title()}", key, self._known), key)
 
+    def _held(self, key: str, value: object, holds: bool, wanted: str) -> Any:
+        """The value of a key that holds, or a complaint about what is wanted."""
+        if not holds:
+            raise self.error(f"{key} must be {wanted}, not {_shown(value)}", key)
+        return value
+
     def number(
         self, key: str, default: object = REQUIRED, low: float = -math.inf, high: float = math.inf
     ) -> float:
         """A finite number between low and high."""
         value = self.take(key, default)
-        if not (is_number(value) and low <= value <= high):
-            raise self.error(f"{key} must be {_range(low, high)}, not {_shown(value)}", key)
-        return float(value)
+        inside = is_number(value) and low <= value <= high
+        return float(self._held(key, value, inside, _range(low, high)))
 
     def text_of(self, key: str, default: object = REQUIRED) -> str:
         """A string."""
         value = self.take(key, default)
-        if not isinstance(value, str):
-            raise self.error(f"{key} must be text in quotes, not {_shown(value)}", key)
-        return value
+        return str(self._held(key, value, isinstance(value, str), "text in quotes"))
 
     def flag(self, key: str, default: bool = False) -> bool:
         """true or false."""
         value = self.take(key, default)
-        if not isinstance(value, bool):
-            raise self.error(f"{key} must be true or false, not {_shown(value)}", key)
-        return value
+        return bool(self._held(key, value, isinstance(value, bool), "true or false"))
 
     def choice(self, key: str, allowed: Collection[str], default: object = REQUIRED) -> str:
         """One of some words."""
@@ -125,23 +126,21 @@ class Table:
         """A list of finite numbers; one number counts as a list of one."""
         value = self.take(key, default)
         row = value if isinstance(value, (list, tuple)) else [value]
-        if not row or not all(map(is_number, row)) or (count and len(row) != count):
-            wanted = f"a list of {count} numbers" if count else "a number or a list of numbers"
-            raise self.error(f"{key} must be {wanted}, not {_shown(value)}", key)
+        holds = bool(row) and all(map(is_number, row)) and len(row) == (count or len(row))
+        wanted = f"a list of {count} numbers" if count else "a number or a list of numbers"
+        self._held(key, value, holds, wanted)
         return tuple(float(v) for v in row)
 
     def table(self, key: str, default: object = REQUIRED) -> Self:
         """A table below this one."""
         value = self.take(key, default)
-        if not isinstance(value, dict):
-            raise self.error(f"{key} must be a table, not {_shown(value)}", key)
-        return self.below(value, key)
+        return self.below(self._held(key, value, isinstance(value, dict), "a table"), key)
 
     def tables(self, key: str) -> list[Self]:
         """An array of tables below this one."""
         value = self.take(key, [])
-        if not isinstance(value, list) or not all(isinstance(v, dict) for v in value):
-            raise self.error(f"{key} must be [[{key}]] tables, not {_shown(value)}", key)
+        holds = isinstance(value, list) and all(isinstance(v, dict) for v in value)
+        self._held(key, value, holds, f"[[{key}]] tables")
         return [self.below(v, key, k) for k, v in enumerate(value)]
 
     def below(self, data: Mapping[str, Any], *keys: str | int) -> Self:

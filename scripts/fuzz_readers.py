@@ -27,11 +27,12 @@ import atheris
 
 with atheris.instrument_imports(include=["montecarlo_brdf", "tomllib"]):
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli import _project, _values
+    from montecarlo_brdf.cli import _options, _requests
     from montecarlo_brdf.errors import UserError
     from montecarlo_brdf.estimate.partial_sums import PartialSums
     from montecarlo_brdf.files import write_text
-    from montecarlo_brdf.report import baseline, read
+    from montecarlo_brdf.report import baseline
+    from montecarlo_brdf.report.json import read_report
     from montecarlo_brdf.scene import images, texels
     from montecarlo_brdf.scene import read as read_scenes
 
@@ -49,11 +50,11 @@ def _scene(path: Path) -> None:
 
 
 def _settings(path: Path) -> None:
-    _project.read(path)
+    _requests.read(path)
 
 
 def _report(path: Path) -> None:
-    found = read.read_report(path)
+    found = read_report(path)
     with contextlib.suppress(KeyError):  # compared with itself: `command` may lack
         baseline.changes(found, found)
 
@@ -77,7 +78,7 @@ def _model_name(path: Path) -> None:
 
 def _parameters(path: Path) -> None:
     model = loading.load("ggx")
-    _values.parameter_sets(model, text(path.read_bytes()).split("\n"))
+    _options.parameter_sets(model, text(path.read_bytes()).split("\n"))
 
 
 def _sky(path: Path) -> None:

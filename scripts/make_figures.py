@@ -14,12 +14,17 @@ from pathlib import Path
 from bench.picture import bench_figure
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.cli._pictures import kind_of, plot
-from montecarlo_brdf.report.pictures import encoded
+from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.report.pictures import drawn, encoded, kind_of
 from montecarlo_brdf.verify.converge import converge
 
 ROOT = Path(__file__).parent.parent
 ANGLES = [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 85.0, 89.0]
+
+
+def plot(report: Report, path: Path) -> None:
+    """The picture of a report as a file."""
+    path.write_bytes(drawn(report, kind_of(path)))
 
 
 def albedo(path: Path) -> None:

@@ -25,9 +25,9 @@ from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import MeanClaim
+from montecarlo_brdf.judge.claim import Kind, MeanClaim
 from montecarlo_brdf.judge.decide import decide
-from montecarlo_brdf.judge.mean import OF_F_ALONE, OF_SAME_F
+from montecarlo_brdf.judge.mean import OF_F_ALONE
 from montecarlo_brdf.verify.run import SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "resolves.json"
@@ -59,7 +59,7 @@ def scaled(claim: MeanClaim, factor: float) -> MeanClaim:
     """The claim about a model all of whose values (and error bars) are `factor` times as large;
     where a quadrature says what f should give, those that its sampler draws: what f alone gives
     refutes the quadrature, not the model."""
-    same_f = claim.expected and claim.expected.kind.startswith(OF_SAME_F)
+    same_f = claim.expected and claim.expected.kind == Kind.SAME_F
 
     def measure(plan: Plan) -> list[Measurement]:
         found = claim.measure(plan)

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from montecarlo_brdf import testing
-from montecarlo_brdf.cli import _project, commands
+from montecarlo_brdf.cli import _requests, commands
 from montecarlo_brdf.report import formats
 
 PAGE = (Path(__file__).parents[1] / "docs" / "ci.md").read_text(encoding="utf-8")
@@ -32,7 +32,7 @@ def test_the_file_shown_is_read(tmp_path: Path) -> None:
     for name in ("plastic", "my_ggx"):
         (tmp_path / "brdfs" / f"{name}.py").write_text(MINE, encoding="utf-8")
     (tmp_path / "brdf-check.toml").write_text(block("toml"), encoding="utf-8")
-    project = _project.read(tmp_path / "brdf-check.toml")
+    project = _requests.read(tmp_path / "brdf-check.toml")
     assert project.max_time == 300
     asked = [r for r in project.requests if r.terms.names and "furnace" in r.terms.names]
     sets = [len(r.p or ()) for r in asked]
@@ -41,9 +41,9 @@ def test_the_file_shown_is_read(tmp_path: Path) -> None:
 
 
 def test_all_keys_formats_and_assertions_are_told() -> None:
-    for key in (*_project.SHARED, "model", "params", "against", "max_time", "inconclusive"):
+    for key in (*_requests.SHARED, "model", "params", "against", "max_time", "inconclusive"):
         assert f"`{key}`" in PAGE, key
-    for name in formats.names():
+    for name in formats.SUFFIXES:
         assert f"| `{name}` |" in PAGE, name
     python = block("python")
     compile(python, "docs/ci.md", "exec")

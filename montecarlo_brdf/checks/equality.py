@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from montecarlo_brdf.checks._hints import dependence_named, moved_named, shape_n
 from montecarlo_brdf.estimate import scattered
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference, Skip, worst_of
 from montecarlo_brdf.judge.finding import Bound
-from montecarlo_brdf.judge.hint import Cause
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model, Property
 
@@ -36,6 +35,13 @@ MAPPINGS = {
     "{} in radians": math.degrees,
 }
 TOLERANCE = 1e-6  # relative to the larger of the two values, and to 1e-6 of the largest
+
+
+class Cause(NamedTuple):
+    """A likely cause in words; everywhere: it holds for all values alike, no other is sought."""
+
+    text: str
+    everywhere: bool = False
 
 
 def claims(case: Case) -> Iterator[Claim]:

@@ -9,23 +9,18 @@ from montecarlo_brdf.model import PROPERTIES, Model
 from montecarlo_brdf.report.columns import Column, Row, Style
 
 COLUMNS = (
-    Column("model", style=lambda name: Style.BOLD),
-    Column("what it is", words=True),
-    Column("parameters", fold=2, words=True),
-    Column("reference", fold=3, words=True),
+    Column("model", style=lambda name: Style.BOLD), Column("what it is", words=True),
+    Column("parameters", fold=2, words=True), Column("reference", fold=3, words=True),
     Column("disclaims", fold=1, words=True),
-)
+)  # fmt: skip
 
 
 def row(model: Model) -> Row:
     """One model of a table."""
     return (
-        model.name,
-        first_line(model),
-        ", ".join([*ranges(model), *options(model)]),
-        reference_kind(model),
-        ", ".join(model.disclaims) or "-",
-    )
+        model.name, first_line(model), ", ".join([*ranges(model), *options(model)]),
+        reference_kind(model), ", ".join(model.disclaims) or "-",
+    )  # fmt: skip
 
 
 def page(model: Model) -> list[str]:

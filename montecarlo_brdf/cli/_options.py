@@ -1,25 +1,208 @@
-"""Options that commands share, as records, and what happens to a finished report."""
+"""What commands take: values as people type them (lists, ranges, powers of two, colours), options
+that several commands share, as records, and what happens to a finished report."""
 from __future__ import annotations
 
 import functools
+import itertools
+import math
 import os
-from collections.abc import Callable
+import secrets
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
 
-from montecarlo_brdf.cli._values import Number, Read, Whole, number, numbers, read_seed
 from montecarlo_brdf.errors import OutputError, UserError, unknown
-from montecarlo_brdf.files import check_writable, write_text
+from montecarlo_brdf.files import check_writable, write_bytes, write_text
 from montecarlo_brdf.judge.finding import Policy, Report, Verdict
+from montecarlo_brdf.model import Model
 from montecarlo_brdf.report import formats
 
+MOST_VALUES = 10_000
+MOST_DIGITS = 400  # of a number: more than any double has
 TEXT = "text"
-FORMATS = (TEXT, *formats.names())
+FORMATS = (TEXT, *formats.SUFFIXES)
 Command = Callable[..., int]
 Option = Callable[[Command], Command]
+
+
+def number(text: str, what: str) -> float:
+    """A finite number, or a UserError."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise UserError(f"{what} must be a finite number, not {text!r}")
+    return value
+
+
+def whole(text: str) -> int | None:
+    """The whole number that plain decimal digits stand for, or None."""
+    return int(text) if text.isascii() and text.isdigit() and len(text) <= MOST_DIGITS else None
+
+
+def numbers(text: str, what: str) -> list[float]:
+    """'0,30,60' or 'first:last:count' or 'first:last:logcount', in any combination."""
+    found: list[float] = []
+    for part in text.split(","):
+        found += _range(part.strip(), what) if ":" in part else [number(part.strip(), what)]
+    return found
+
+
+def _range(text: str, what: str) -> list[float]:
+    first, _, rest = text.partition(":")
+    last, _, count_text = rest.partition(":")
+    logarithmic = count_text.startswith("log")
+    n = whole(count_text.removeprefix("log"))
+    if n is None or not 2 <= n <= MOST_VALUES:
+        raise UserError(
+            f"{what} range {text!r} must be first:last:count or first:last:logcount "
+            f"with a count from 2 to {MOST_VALUES}"
+        )
+    a, b = number(first, what), number(last, what)
+    if logarithmic and not (a > 0.0 and b > 0.0):
+        raise UserError(f"{what} range {text!r} needs positive ends to be logarithmic")
+    steps = [k / (n - 1) for k in range(n)]
+    if logarithmic:
+        return [a * (b / a) ** t for t in steps]
+    return [a + (b - a) * t for t in steps]
+
+
+def whole_number(text: str, what: str) -> int:
+    """A whole number, also written 2^20, 1e6 or 1_000_000."""
+    found = _whole_of(text.replace("_", ""))
+    if found is None:
+        raise ValueError(f"{text!r} is not a whole number (write 65536, 2^16 or 1e6)")
+    return found
+
+
+def _whole_of(text: str) -> int | None:
+    base, _, power = text.partition("^")
+    if power:
+        b, p = whole(base), whole(power)
+        return b**p if b is not None and p is not None and b < 1 << 64 and p <= 64 else None
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    exact = whole(text.removeprefix("-"))
+    if exact is not None:
+        return -exact if text.startswith("-") else exact
+    return int(value) if value.is_integer() else None
+
+
+def read_seed(text: str, what: str) -> int:
+    """A seed, drawn and told if it is 'random', or a UserError."""
+    if text == "random":
+        drawn = secrets.randbits(32)
+        click.echo(f"seed {drawn}", err=True)
+        return drawn
+    found = whole(text)
+    if found is None or found >= 1 << 64:
+        allowed = "a whole number from 0 to 2^64 - 1, or random"
+        raise UserError(f"{what} must be {allowed}, not {text!r}")
+    return found
+
+
+def listed(text: str, what: str) -> str | list[str]:
+    """'all', or names separated by commas; whether they exist is checked where they are used."""
+    return text if text == "all" else [name.strip() for name in text.split(",")]
+
+
+class Read(click.ParamType):  # type: ignore[type-arg]  # generic only from click 8.4 on
+    """What a function makes of a text; its range is checked where it is used.
+
+    The function gets the option's name for a UserError; the sentence of a ValueError is a usage
+    error of the option.
+    """
+
+    def __init__(self, function: Callable[[str, str], Any], name: str = "text") -> None:
+        self._function, self.name = function, name
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The value."""
+        what = max(param.opts, key=len).lstrip("-") if param else ""
+        try:
+            return self._function(value, what) if isinstance(value, str) else value
+        except ValueError as error:
+            self.fail(str(error), param, ctx)
+
+
+WHOLE = Read(whole_number, "number")
+
+
+def finite(allowed: str = "that is finite") -> Read:
+    """A finite number in a range that is told."""
+
+    def read(text: str, what: str) -> float:
+        try:
+            return number(text, what)
+        except UserError:
+            raise ValueError(f"{text!r} is not a number {allowed}") from None
+
+    return Read(read, "number")
+
+
+def parameter_sets(model: Model, assignments: Sequence[str]) -> list[Any]:
+    """All combinations of -p name=value: lists and ranges make cases, a/b/c makes a colour."""
+    listed = axes(assignments, lambda name: model)
+    rows: Iterable[tuple[Any, ...]] = itertools.product(*listed.values())
+    return [model.parameters(**dict(zip(listed, row, strict=True))) for row in rows]
+
+
+def axes(assignments: Sequence[str], owner: Callable[[str], Model]) -> dict[str, list[Any]]:
+    """The values of every name assigned; `owner` says which model a name belongs to."""
+    found: dict[str, list[Any]] = {}
+    values: Sequence[Value]
+    for assignment in assignments:
+        name, text = _parted(assignment)
+        values = text.split(",") if name in owner(name).choices else values_of(name, text)
+        if name in found:
+            raise UserError(f"-p {name} is given twice: write -p {name}=a,b for both values")
+        found[name] = [*values]
+    count = math.prod(map(len, found.values()))
+    if count > MOST_VALUES:
+        raise UserError(f"{count} parameter sets are more than the {MOST_VALUES} allowed")
+    return found
+
+
+Value = str | float | tuple[str, ...]
+
+
+def values_of(name: str, text: str) -> list[Value]:
+    """Values as the model will check them: it knows what is allowed and says so."""
+    found: list[Value] = []
+    for part in map(str.strip, text.split(",")):
+        found += _range(part, name) if ":" in part else [_value(part)]
+    return found
+
+
+def assigned(assignment: str) -> tuple[str, Value]:
+    """name=value with a single value."""
+    name, text = _parted(assignment)
+    return name, _value(text)
+
+
+def _parted(assignment: str) -> tuple[str, str]:
+    name, equals, text = assignment.partition("=")
+    if not equals or not text:
+        raise UserError(f"-p takes name=value, not {assignment!r}")
+    return name.strip(), text
+
+
+def _value(text: str) -> Value:
+    return tuple(text.split("/")) if "/" in text else text
+
+
+def models_of(spec: str) -> list[str]:
+    """'all', or names separated by commas."""
+    from montecarlo_brdf import loading
+
+    found = listed(spec, "model")
+    return loading.names() if isinstance(found, str) else found
 
 
 def model_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
@@ -51,11 +234,11 @@ seed = partial(
     help="A number, or random (printed). [--seed 7]",
 )  # fmt: skip
 threads = partial(
-    click.option, "--threads", type=Whole(),
+    click.option, "--threads", type=WHOLE,
     help="Threads; results do not depend on it. [--threads 1]  [default: all]",
 )  # fmt: skip
 tolerance = partial(
-    click.option, "--tolerance", type=Number("in [0, 1)"),
+    click.option, "--tolerance", type=finite("in [0, 1)"),
     help="Allowed deviation: relative from a reference [default: 1e-4], absolute from a bound "
     "[default: 1e-5]. [--tolerance 1e-3]",
 )  # fmt: skip
@@ -82,7 +265,7 @@ def sampling_options(command: Command) -> Command:
         click.option("--points", default="sobol", show_default=True, metavar="SET",
                      help="Point set: sobol, independent, stratified or lattice. "
                      "[--points independent]"),
-        click.option("--samples", type=Whole(), default=None,
+        click.option("--samples", type=WHOLE, default=None,
                      help="The most samples a claim may take; it stops sooner where it is decided. "
                      "[--samples 2^20]  [default: 2^22; run: 2^20]"),
         seed(),
@@ -170,9 +353,9 @@ def deliver(report: Report, output: Output) -> int:
     if policy:
         report.settings["inconclusive"] = policy
     if output.plot:
-        from montecarlo_brdf.cli._pictures import plot
+        from montecarlo_brdf.report import pictures
 
-        plot(report, output.plot)
+        write_bytes(output.plot, pictures.drawn(report, pictures.kind_of(output.plot)))
     for path, form in output._files().items():
         write_text(path, formats.render(report, form))
     if output.form != TEXT:

@@ -1,19 +1,33 @@
-"""What there is to check: a loaded model with its parameter sets, where to look and how closely.
+"""What there is to check: models with their parameter sets, where to look and how closely.
 
-Requests come from the command line or from a project's TOML file; both are run in the same way.
+Requests come from the command line or from a project's own list, brdf-check.toml or
+[tool.brdf-check] in pyproject.toml; both are run in the same way. The keys and what they mean:
+docs/ci.md. A mistake is reported with its line and what is allowed.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+import functools
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.cli._values import parameter_sets
-from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf import checks, loading
+from montecarlo_brdf.cli._options import numbers, parameter_sets
+from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.judge.finding import Policy, Report
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.report.sentences import called
-from montecarlo_brdf.verify.results import Progress, shown_parameters
+from montecarlo_brdf.report.text import called
+from montecarlo_brdf.sampling.points import SETS
+from montecarlo_brdf.toml import Keys, Table, parse
+from montecarlo_brdf.verify.question import Progress, shown_parameters
 from montecarlo_brdf.verify.run import ANGLES, SAMPLES, run
 from montecarlo_brdf.verify.supervision import Deadline
+
+FILE = "brdf-check.toml"
+PYPROJECT = "pyproject.toml"
+INSIDE: Keys = ("tool", "brdf-check")
 
 
 class Terms(NamedTuple):
@@ -53,21 +67,14 @@ class Request(NamedTuple):
         return self._replace(terms=self.terms._replace(names=names))
 
     def run(
-        self,
-        deadline: Deadline | None = None,
-        threads: int | None = None,
+        self, deadline: Deadline | None = None, threads: int | None = None,
         progress: Progress | None = None,
-    ) -> Report:
+    ) -> Report:  # fmt: skip
         """The report of `verify.run`."""
         return run(
-            self.model,
-            self.p,
-            fixed=self.fixed,
-            deadline=deadline,
-            threads=threads,
-            progress=progress,
-            **self.terms._asdict(),
-        )
+            self.model, self.p, fixed=self.fixed, deadline=deadline, threads=threads,
+            progress=progress, **self.terms._asdict(),
+        )  # fmt: skip
 
 
 def request(model: Model, assignments: Sequence[str], terms: Terms) -> Request:
@@ -76,3 +83,182 @@ def request(model: Model, assignments: Sequence[str], terms: Terms) -> Request:
         return Request(model, terms)
     fixed = tuple(a.partition("=")[0].strip() for a in assignments)
     return Request(model, terms, parameter_sets(model, assignments), fixed)
+
+
+class Project(NamedTuple):
+    """What a file asks for."""
+
+    requests: list[Request]
+    max_time: float | None
+    inconclusive: Policy | None
+
+
+class Section(Table):
+    """A table of the file."""
+
+    def title(self) -> str:
+        """The file's own name for what stands at its top; a pyproject.toml is not all ours."""
+        if not self.path:
+            return self.file.name
+        if isinstance(self.path[-1], int):
+            return super().title()
+        return f"[{'.'.join(str(part) for part in self.path if not isinstance(part, int))}]"
+
+
+def find(folder: Path) -> Path | None:
+    """The file that speaks for a folder: in it, or in the nearest folder above it."""
+    for place in (folder, *folder.resolve().parents):
+        if (place / FILE).is_file():
+            return place / FILE
+        if speaks(place / PYPROJECT):
+            return place / PYPROJECT
+    return None
+
+
+def speaks(path: Path) -> bool:
+    """Whether a pyproject.toml has a [tool.brdf-check]."""
+    if not path.is_file() or "brdf-check" not in path.read_text(encoding="utf-8", errors="replace"):
+        return False
+    tools = parse(path)[0].get("tool", {})
+    return isinstance(tools, dict) and INSIDE[1] in tools
+
+
+def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
+    """The requests of a file; `overrides` (fields of Terms) stand above what it says."""
+    data, text = parse(path)
+    at: Keys = INSIDE if path.name == PYPROJECT else ()
+    for name in at:
+        data = data.get(str(name), {})
+    top = Section(path, text, data, at)
+    limit = top.number("max_time", low=1e-3) if "max_time" in data else None
+    policy = Policy(top.choice("inconclusive", tuple(Policy))) if "inconclusive" in data else None
+    top.know("inconclusive", "max_time", *SHARED)
+    terms, tolerances = _shared(top, Terms(), {})
+    entries = top.tables("models")
+    top.done()
+    if not entries:
+        raise top.error('there is nothing to check: add [[models]] with model = "ggx"')
+    requests = [r for e in entries for r in _requests(e, terms, tolerances, overrides or {})]
+    return Project(requests, limit, policy)
+
+
+def _requests(
+    entry: Table, terms: Terms, tolerances: dict[str, float], overrides: Mapping[str, Any]
+) -> Iterator[Request]:
+    """The requests of one [[models]]: one for each tolerance that some of its checks have."""
+    entry.know("model", "params", "against", *SHARED)
+    terms, tolerances = _shared(entry, terms, tolerances)
+    model = _model(entry, "model")
+    if "against" in entry.data:
+        terms = terms._replace(against=_model(entry, "against"))
+    assignments = _assignments(entry)
+    entry.done()
+    terms = terms._replace(**overrides)
+    try:
+        whole = request(model, assignments, terms)
+    except UserError as error:
+        raise entry.error(str(error), "params") from error
+    if "tolerance" in overrides or not tolerances:
+        yield whole
+        return
+    names = terms.names or tuple(checks.names())
+    for tolerance in dict.fromkeys(tolerances.get(n, terms.tolerance) for n in names):
+        same = tuple(n for n in names if tolerances.get(n, terms.tolerance) == tolerance)
+        yield whole._replace(terms=terms._replace(names=same, tolerance=tolerance))
+
+
+def _shared(
+    table: Table, above: Terms, tolerances: dict[str, float]
+) -> tuple[Terms, dict[str, float]]:
+    """What may stand at the top and in [[models]]: terms, and a tolerance per check."""
+    asked = [(key, *READ[key]) for key in table.data if key in READ]
+    found = {field: read(table, key) for key, field, read in asked}
+    return above._replace(**found), {**tolerances, **_tolerances(table)}
+
+
+def _checks(table: Table, key: str) -> tuple[str, ...]:
+    value = table.take(key)
+    names = [value] if isinstance(value, str) else value
+    known = checks.names()
+    if not isinstance(names, list) or not names:
+        raise table.error(f"{key} must be a list of names (choose from {', '.join(known)})", key)
+    for name in names:
+        if name not in known:
+            raise table.error(unknown("check", name, known), key)
+    return tuple(names)
+
+
+def _tolerances(table: Table) -> dict[str, float]:
+    if "tolerances" not in table.data:
+        return {}
+    inner = table.table("tolerances")
+    inner.know(*checks.names())
+    inner.done()
+    return {name: _tolerance(inner, name) for name in inner.data}
+
+
+def _angles(table: Table, key: str) -> list[float]:
+    """[0, 45, 80] or "0:85:6"."""
+    value = table.take(key)
+    try:
+        listed = value if isinstance(value, list) else [value]
+        angles = [a for v in listed for a in numbers(str(v), key)]
+        for angle in angles:
+            check_theta(angle, key)
+    except UserError as error:
+        raise table.error(str(error), key) from error
+    return angles
+
+
+def _whole(low: int, high: int, table: Table, key: str) -> int:
+    value = table.take(key)
+    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+        raise table.error(f"{key} must be a whole number from {low} to {high}, not {value!r}", key)
+    return value
+
+
+def _tolerance(table: Table, key: str) -> float:
+    return table.number(key, low=0.0, high=1.0 - 1e-12)
+
+
+def _model(table: Table, key: str) -> Model:
+    """A model by name or by a path that starts at the file's folder."""
+    spec = table.text_of(key)
+    folder = table.file.parent
+    if ".py" in spec and not Path(spec).is_absolute() and folder != Path():
+        spec = os.path.relpath(folder / spec)
+    try:
+        return loading.load(spec)
+    except UserError as error:
+        wrapped = table.error(str(error), key)
+        raise type(error)(str(wrapped)) from error
+
+
+def _assignments(entry: Table) -> list[str]:
+    """params as -p takes them: a list makes cases, a list inside it a colour."""
+    if "params" not in entry.data:
+        return []
+    params = entry.table("params")
+    return [f"{name}={_text(params, name, value)}" for name, value in params.data.items()]
+
+
+def _text(params: Table, name: str, value: object) -> str:
+    values = value if isinstance(value, list) else [value]
+    words = ["/".join(map(str, v)) if isinstance(v, list) else v for v in values]
+    if not words or any(isinstance(w, (bool, dict)) for w in words):
+        raise params.error(f"{name} must be a number, text as -p takes it, or a list of them", name)
+    return ",".join(map(str, words))
+
+
+#: key of the file -> the term that it says, and how it is read
+READ: dict[str, tuple[str, Callable[[Table, str], Any]]] = {
+    "checks": ("names", _checks),
+    "theta_o": ("theta_o_deg", _angles),
+    "phi_o": ("phi_o_deg", Table.number),
+    "points": ("points", functools.partial(Table.choice, allowed=SETS)),
+    "samples": ("samples", functools.partial(_whole, 1, 1 << 40)),
+    "seed": ("seed", functools.partial(_whole, 0, (1 << 64) - 1)),
+    "tolerance": ("tolerance", _tolerance),
+}
+#: may stand at the top and in each [[models]]
+SHARED = (*READ, "tolerances")

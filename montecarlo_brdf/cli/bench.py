@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number, parameter_sets
+from montecarlo_brdf.cli._options import finite, parameter_sets
 from montecarlo_brdf.errors import UserError
 
 EPILOG = """\b
@@ -21,12 +21,12 @@ Examples:
 @click.command("bench", epilog=EPILOG, short_help="Error against run time, method by method.")
 @_options.model(required=True)
 @_options.parameters()
-@_options.theta_o(type=Number("in [0, 90)"), default="60",
+@_options.theta_o(type=finite("in [0, 90)"), default="60",
                   help="Polar angle of the viewer in degrees, in [0, 90). [--theta-o 80]")
 @_options.phi_o()
 @click.option("--method", default="all", show_default=True, metavar="NAMES",
               help="all, or some: auto, a sampler, a point set, 'own x sobol'. [--method auto,own]")
-@click.option("--seconds", type=Number("above 0"), default="0.05", show_default=True,
+@click.option("--seconds", type=finite("above 0"), default="0.05", show_default=True,
               help="The most processor time of one estimate. [--seconds 1]")
 @click.option("--quick", is_flag=True, help="A tenth of the time, and 4 seeds instead of 8.")
 @click.option("--json", "as_json", is_flag=True, help="Print the data as JSON, not as tables.")
@@ -53,7 +53,7 @@ def command(
     channel counts. There is no verdict.
     """
     from montecarlo_brdf import files, loading
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.report import bench as report
     from montecarlo_brdf.report.pictures import encoded, kind_of
     from montecarlo_brdf.verify.bench import bench

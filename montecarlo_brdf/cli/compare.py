@@ -33,60 +33,40 @@ Examples:
 @_options.seed(help="Of the random directions: a number, or random (printed). [--seed 7]")
 @_options.output_options
 def command(
-    model: str,
-    other: str,
-    assignments: tuple[str, ...],
-    theta_o: list[float],
-    phi_o: float,
-    tolerance: float | None,
-    seed: int,
-    output: _options.Output,
-) -> int:
+    model: str, other: str, assignments: tuple[str, ...], theta_o: list[float], phi_o: float,
+    tolerance: float | None, seed: int, output: _options.Output,
+) -> int:  # fmt: skip
     """Do two models agree? The columns estimate and expected are A's and B's.
 
     f is compared over thousands of pairs of directions, the albedo A(wo) and the reverse albedo
     R(wi) by quadrature with error bounds. Parameters without -p have their defaults.
     """
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify.compare import compare
 
     output.check()
     first, second = loading.load(model), loading.load(other)
     with progress(f"compare {first.name} {second.name}") as update:
         report = compare(
-            first,
-            second,
-            pairs(first, second, assignments),
-            theta_o,
-            phi_o_deg=phi_o,
-            tolerance=tolerance,
-            seed=seed,
-            progress=update,
-        )
+            first, second, pairs(first, second, assignments), theta_o, phi_o_deg=phi_o,
+            tolerance=tolerance, seed=seed, progress=update,
+        )  # fmt: skip
     return _options.deliver(report, output)
 
 
-def pairs(
-    model: Model, other: Model, assignments: Sequence[str]
-) -> list[tuple[Any, Any]]:
+def pairs(model: Model, other: Model, assignments: Sequence[str]) -> list[tuple[Any, Any]]:
     """Parameter sets of both for every combination; a value goes to whichever model knows it."""
-    from montecarlo_brdf.cli._values import axes
-
     names = {m: set(known(m)) for m in (model, other)}
     owner = lambda name: other if name in names[other] - names[model] else model  # noqa: E731
-    listed = axes(assignments, owner)
+    listed = _options.axes(assignments, owner)
     found = []
     for row in itertools.product(*listed.values()):
         values = dict(zip(listed, row, strict=True))
-        unknown = {n: v for n, v in values.items() if n not in names[model] | names[other]}
-        own = {n: v for n, v in values.items() if n in names[model]}
-        found.append(
-            (
-                model.parameters(**own, **unknown),
-                other.parameters(**{n: v for n, v in values.items() if n in names[other]}),
-            )
-        )
+        # a name that neither has is the first one's to complain about
+        own = {n: v for n, v in values.items() if n in names[model] or n not in names[other]}
+        theirs = {n: v for n, v in values.items() if n in names[other]}
+        found.append((model.parameters(**own), other.parameters(**theirs)))
     return found
 
 
@@ -94,11 +74,6 @@ def known(model: Model) -> list[str]:
     """Names of a model's parameters and choices, also those that its other choices would bring."""
     fields: tuple[str, ...] = model.Params._fields  # type: ignore[attr-defined]
     names = [model.labels.get(n, n) for n in fields]
-    brought = [
-        field
-        for options in model.choices.values()
-        for option in options.values()
-        if isinstance(option, dict)
-        for field in option.get("params", {})
-    ]
+    options = [option for picks in model.choices.values() for option in picks.values()]
+    brought = [n for o in options if isinstance(o, dict) for n in o.get("params", {})]
     return [*names, *model.choices, *brought]

@@ -4,7 +4,7 @@ from __future__ import annotations
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Read, Whole, listed, number
+from montecarlo_brdf.cli._options import WHOLE, Read, listed, number, parameter_sets
 
 EPILOG = """\b
 Examples:
@@ -26,7 +26,7 @@ Examples:
 @click.option("--points", type=Read(listed), default="all", show_default=True, metavar="SETS",
               help="all, or some of independent, stratified, sobol, lattice. "
               "[--points sobol,lattice]")  # fmt: skip
-@click.option("--samples", type=Whole(), default="2^21", show_default=True,
+@click.option("--samples", type=WHOLE, default="2^21", show_default=True,
               help="The most samples of one point of a curve, over its 32 randomisations. "
               "[--samples 2^18]")  # fmt: skip
 @_options.seed()
@@ -34,40 +34,23 @@ Examples:
 @_options.output_options
 @_options.plot(help="Error against samples, log-log, as PNG, SVG or PDF. [--plot error.png]")
 def command(
-    spec: str,
-    assignments: tuple[str, ...],
-    theta_o: float,
-    phi_o: float,
-    sampler: str | list[str],
-    points: str | list[str],
-    samples: int,
-    seed: int,
-    threads: int | None,
-    output: _options.Output,
-) -> int:
+    spec: str, assignments: tuple[str, ...], theta_o: float, phi_o: float, sampler: str | list[str],
+    points: str | list[str], samples: int, seed: int, threads: int | None, output: _options.Output,
+) -> int:  # fmt: skip
     """How fast does the error fall with the number of samples, and is that what theory says?
 
     One claim per sampler and point set: the slope of log error against log N. Tells the samples
     needed for errors of 1e-3, 1e-6 and 1e-9; in brackets where that is extrapolated.
     """
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.cli._values import parameter_sets
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify.converge import converge
 
     output.check()
     model = loading.load(spec)
     with progress(f"converge {model.name}") as update:
         report = converge(
-            model,
-            parameter_sets(model, assignments),
-            theta_o,
-            phi_o_deg=phi_o,
-            sampler=sampler,
-            points=points,
-            samples=samples,
-            seed=seed,
-            threads=threads,
-            progress=update,
-        )
+            model, parameter_sets(model, assignments), theta_o, phi_o_deg=phi_o, sampler=sampler,
+            points=points, samples=samples, seed=seed, threads=threads, progress=update,
+        )  # fmt: skip
     return _options.deliver(report, output)

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number, Read, listed
+from montecarlo_brdf.cli._options import Read, finite, listed, models_of, parameter_sets
 
 EPILOG = """\b
 Examples:
@@ -29,7 +29,7 @@ Examples:
 @_options.phi_o()
 @click.option("--sampler", type=Read(listed), default="all", show_default=True, metavar="NAMES",
               help="all, or some of uniform, cosine, own. [--sampler cosine,own]")  # fmt: skip
-@click.option("--target-error", type=Number("in [1e-13, 1)"), default=None,
+@click.option("--target-error", type=finite("in [1e-13, 1)"), default=None,
               help="Sample until the 99 % interval of A is as narrow, relative to A. "
               "[--target-error 1e-6]")  # fmt: skip
 @click.option("--method", default=None, metavar="NAME",
@@ -45,27 +45,19 @@ Examples:
     help="Albedo against angle with error bars and reference, as PNG, SVG or PDF. [--plot a.png]"
 )
 def command(
-    spec: str,
-    assignments: tuple[str, ...],
-    theta_o: list[float],
-    phi_o: float,
-    sampler: str | list[str],
-    target_error: float | None,
-    method: str | None,
-    resume: Path | None,
-    sampling: _options.Sampling,
-    output: _options.Output,
-) -> int:
+    spec: str, assignments: tuple[str, ...], theta_o: list[float], phi_o: float,
+    sampler: str | list[str], target_error: float | None, method: str | None, resume: Path | None,
+    sampling: _options.Sampling, output: _options.Output,
+) -> int:  # fmt: skip
     """How much of a constant light 1 does the surface reflect, and is that what theory says?
 
     Two claims per angle: the albedo A equals its reference within the tolerance, and A <= 1. Each
     is estimated by every sampler that can be trusted for the case.
     """
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.cli._values import models_of, parameter_sets
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify import furnace
-    from montecarlo_brdf.verify.results import merged, part_of
+    from montecarlo_brdf.verify.question import merged, part_of
 
     output.check()
     specs, reports = models_of(spec), []
@@ -73,17 +65,10 @@ def command(
         for k, one in enumerate(specs):
             model = loading.load(one)
             report = furnace.furnace(
-                model,
-                parameter_sets(model, assignments),
-                theta_o,
-                phi_o_deg=phi_o,
-                sampler=sampler,
-                target_error=target_error,
-                method=method,
+                model, parameter_sets(model, assignments), theta_o, phi_o_deg=phi_o,
+                sampler=sampler, target_error=target_error, method=method,
                 progress=part_of(update, k, len(specs)),
-                curve=bool(output.plot or output.export_json),
-                sums=sums,
-                **sampling.keywords(),
-            )
+                curve=bool(output.plot or output.export_json), sums=sums, **sampling.keywords(),
+            )  # fmt: skip
             reports.append(report)
     return _options.deliver(merged(reports), output)

@@ -18,7 +18,7 @@ from montecarlo_brdf.cli import _options
 def command(sampling: _options.Sampling, output: _options.Output) -> int:
     """Solid angle, projected hemisphere, powers of the cosine, Lambert under a light that is not
     constant: each estimated, with its exact value and a verdict."""
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify.identities import identities
 
     output.check()

@@ -12,8 +12,9 @@ def command() -> int:
     """All built-in models: one line each, parameters with their ranges, reference, disclaimers."""
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli import _catalogue
-    from montecarlo_brdf.cli._terminal import tell_table
+    from montecarlo_brdf.cli._terminal import colour, tell, width
+    from montecarlo_brdf.report.columns import table
 
     rows = [_catalogue.row(loading.load(name)) for name in loading.names()]
-    tell_table(_catalogue.COLUMNS, rows)
+    tell("\n".join(table(_catalogue.COLUMNS, rows, width(), colour())))
     return 0

@@ -16,10 +16,10 @@ import click
               help="PNG, SVG or PDF. [-o albedo.png]")  # fmt: skip
 def command(report: Path, output: Path) -> int:
     """Draw the picture of an exported report."""
-    from montecarlo_brdf.cli._pictures import plot
-    from montecarlo_brdf.files import check_writable
-    from montecarlo_brdf.report.read import read_report
+    from montecarlo_brdf.files import check_writable, write_bytes
+    from montecarlo_brdf.report.json import read_report
+    from montecarlo_brdf.report.pictures import drawn, kind_of
 
     check_writable(output)
-    plot(read_report(report), output)
+    write_bytes(output, drawn(read_report(report), kind_of(output)))
     return 0

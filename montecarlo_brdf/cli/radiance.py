@@ -9,6 +9,7 @@ import click
 
 from montecarlo_brdf.cli import _options
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge.finding import Verdict
 
 if TYPE_CHECKING:
     from montecarlo_brdf.scene.scene import Scene
@@ -44,23 +45,16 @@ Examples:
     help="L_o against angle with error bars and truth, as PNG, SVG or PDF. [--plot r.png]"
 )
 def command(
-    scene: Path | None,
-    spec: str | None,
-    assignments: tuple[str, ...],
-    environment: str | None,
-    theta_o: list[float] | None,
-    explain: bool,
-    no_skip: bool,
-    sampling: _options.Sampling,
+    scene: Path | None, spec: str | None, assignments: tuple[str, ...], environment: str | None,
+    theta_o: list[float] | None, explain: bool, no_skip: bool, sampling: _options.Sampling,
     output: _options.Output,
-) -> int:
+) -> int:  # fmt: skip
     """What radiance does a surface reflect towards the viewer, and is that what theory says?
 
     SCENE is a TOML file (docs/scenes.md). Per view and channel: L_o equals its analytic value or
     quadrature, and the surface's albedo is at most 1.
     """
-    from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.judge.finding import Verdict
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.scene.read import with_views
     from montecarlo_brdf.verify.radiance import WEIGHTS, radiance
 
@@ -83,31 +77,19 @@ def scene_from(
 ) -> Scene:
     """The scene of a file, or of --model and --environment."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._values import parameter_sets
     from montecarlo_brdf.scene.read import read_scene, scene_of
 
     if path is not None:
         if spec or sky:
             raise UserError("give a scene file, or --model and --environment, not both")
-        return read_scene(path, **single_values(assignments))
+        return read_scene(path, **dict(map(_options.assigned, assignments)))
     if not (spec and sky):
         raise UserError("give a scene file, or both --model and --environment")
     model = loading.load(spec)
-    sets = parameter_sets(model, assignments)
+    sets = _options.parameter_sets(model, assignments)
     if len(sets) != 1:
         raise UserError(f"radiance takes one value per parameter, not {len(sets)} sets")
     return scene_of(model, sets[0], sky)
-
-
-def single_values(assignments: tuple[str, ...]) -> dict[str, str | tuple[str, ...]]:
-    """-p name=value for the surface of a scene file; the model checks the values."""
-    found: dict[str, str | tuple[str, ...]] = {}
-    for assignment in assignments:
-        name, equals, text = assignment.partition("=")
-        if not equals or not text:
-            raise UserError(f"-p takes name=value, not {assignment!r}")
-        found[name.strip()] = tuple(text.split("/")) if "/" in text else text
-    return found
 
 
 def _explain(rows: list[dict[str, Any]]) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Value, Whole
+from montecarlo_brdf.cli._options import WHOLE, Value, axes, number, parameter_sets, values_of
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -46,9 +46,9 @@ Examples:
               "radiance. [--environment cap:20:45]")  # fmt: skip
 @click.option("--furnace", is_flag=True,
               help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.")
-@click.option("--size", type=Whole(), default="512", show_default=True,
+@click.option("--size", type=WHOLE, default="512", show_default=True,
               help="Pixels across. [--size 256]")  # fmt: skip
-@click.option("--samples", type=Whole(), default="256", show_default=True,
+@click.option("--samples", type=WHOLE, default="256", show_default=True,
               help="Samples per pixel where pixels are sampled. [--samples 1024]")  # fmt: skip
 @click.option("--camera", metavar="TILT[:AZIMUTH]",
               help="Where the viewer stands, degrees from the z axis. [--camera 90:-90]  "
@@ -56,30 +56,21 @@ Examples:
 @_options.seed(help="A number, or random. [--seed 7]")
 @_options.threads(help="Threads; results do not depend on it. [--threads 1]")
 def command(
-    scene: Path | None,
-    outputs: tuple[Path, ...],
-    spec: str | None,
-    assignments: tuple[str, ...],
-    environment: str | None,
-    furnace: bool,
-    size: int,
-    samples: int,
-    camera: str | None,
-    seed: int,
+    scene: Path | None, outputs: tuple[Path, ...], spec: str | None, assignments: tuple[str, ...],
+    environment: str | None, furnace: bool, size: int, samples: int, camera: str | None, seed: int,
     threads: int | None,
-) -> int:
+) -> int:  # fmt: skip
     """Shade a sphere per pixel from the estimators, and say how exact the picture is.
 
     With --furnace a second panel shows the signed difference to the light from -10 % to +10 %. A
     picture is no verdict: see `brdf-check furnace` and `brdf-check radiance`.
     """
-    from montecarlo_brdf.cli._progress import progress
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.files import check_writable, write_bytes
     from montecarlo_brdf.report.pictures import spheres
     from montecarlo_brdf.scene.render import render
     from montecarlo_brdf.vectors import from_degrees
-    from montecarlo_brdf.verify.results import part_of
-    from montecarlo_brdf.verify.settings import all_threads
+    from montecarlo_brdf.verify.question import all_threads, part_of
 
     for path in outputs:
         check_writable(path)
@@ -101,14 +92,10 @@ def command(
     with progress("render") as update:
         for k, (label, shown) in enumerate(scenes):
             one = render(
-                shown.under_constant_light(FURNACE) if furnace else shown,
-                size=size,
-                samples=samples,
-                seed=seed,
-                threads=threads or all_threads(),
-                camera=viewer,
+                shown.under_constant_light(FURNACE) if furnace else shown, size=size,
+                samples=samples, seed=seed, threads=threads or all_threads(), camera=viewer,
                 progress=part_of(update, k, len(scenes)),
-            )
+            )  # fmt: skip
             made.append(one)
             click.echo(_said(label, one, furnace))
     labels = [label for label, _ in scenes]
@@ -132,8 +119,6 @@ def _said(label: str, sphere: Sphere, furnace: bool) -> str:
 
 
 def _camera(text: str) -> tuple[float, ...]:
-    from montecarlo_brdf.cli._values import number
-
     parts = [number(t, "camera") for t in text.split(":")]
     if len(parts) > 2 or not 0.0 <= parts[0] <= 180.0:
         raise UserError(f"camera is TILT[:AZIMUTH] with a tilt in [0, 180] degrees, not {text!r}")
@@ -147,7 +132,6 @@ Page = tuple[list[tuple[str, "Scene"]], int]
 def _from_model(spec: str, sky: str, assignments: Sequence[str]) -> Page:
     """A model under a sky, once per combination of -p values."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._values import axes, parameter_sets
     from montecarlo_brdf.scene.read import scene_of
 
     model = loading.load(spec)
@@ -171,7 +155,7 @@ def _columns(listed: Mapping[str, Sequence[object]]) -> int:
 
 def _label(spec: str, assignments: Sequence[str], model: Model, p: NamedTuple) -> str:
     """The model, and the parameters and choices that were given."""
-    from montecarlo_brdf.verify.results import shown_parameters
+    from montecarlo_brdf.verify.question import shown_parameters
 
     values = shown_parameters(model, p)
     names = [a.partition("=")[0].strip() for a in assignments]
@@ -187,7 +171,6 @@ def _shown(value: Value) -> str:
 
 def _from_file(path: Path, assignments: Sequence[str]) -> Page:
     """The scene once per combination of -p values, which replace those of its surface."""
-    from montecarlo_brdf.cli._values import values_of
     from montecarlo_brdf.scene.read import read_scene
 
     listed: dict[str, list[Value]] = {}

@@ -1,6 +1,8 @@
 """brdf-check run"""
 from __future__ import annotations
 
+import gc
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -8,26 +10,21 @@ from typing import TYPE_CHECKING
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number, Read, listed
+from montecarlo_brdf.cli._options import Read, finite, listed, models_of
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge import finding
+from montecarlo_brdf.judge.finding import EXIT_CODES, Finding, Policy, Report, Result, Verdict
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cli._project import Project
-    from montecarlo_brdf.cli._requests import Request
-    from montecarlo_brdf.judge.finding import Policy, Report
+    from montecarlo_brdf.cli._requests import Project, Request
     from montecarlo_brdf.verify.supervision import Deadline
 
 INTERRUPTED = 130
 #: options that stand above a project's file if they are given
 ABOVE = {"samples", "points", "tolerance", "seed", "effort"}
 #: options that only make sense with --model
-LOCAL = {
-    "assignments": "-p",
-    "names": "--check",
-    "theta_o": "--theta-o",
-    "phi_o": "--phi-o",
-    "against": "--against",
-}
+LOCAL = {"assignments": "-p", "names": "--check"}
+LOCAL |= {"theta_o": "--theta-o", "phi_o": "--phi-o", "against": "--against"}
 
 EPILOG = """\b
 Examples:
@@ -55,7 +52,7 @@ Examples:
               help="A model that it must equal in values. [--against ggx]")
 @click.option("--max-time", type=float, metavar="SECONDS",
               help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
-@click.option("--effort", type=Number("in (0, 1]"), default=1.0, show_default=True,
+@click.option("--effort", type=finite("in (0, 1]"), default=1.0, show_default=True,
               help="Share of the pairs, places and nodes that checks look at. [--effort 0.1]")
 @click.option("--baseline", type=click.Path(path_type=Path), metavar="REPORT.json",
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
@@ -63,33 +60,20 @@ Examples:
 @_options.sampling_options
 @_options.output_options
 def command(
-    spec: str | None,
-    assignments: tuple[str, ...],
-    config: Path | None,
-    names: str | list[str],
-    theta_o: list[float],
-    phi_o: float,
-    against: str | None,
-    max_time: float | None,
-    effort: float,
-    baseline: Path | None,
-    sampling: _options.Sampling,
-    output: _options.Output,
-) -> int:
+    spec: str | None, assignments: tuple[str, ...], config: Path | None, names: str | list[str],
+    theta_o: list[float], phi_o: float, against: str | None, max_time: float | None, effort: float,
+    baseline: Path | None, sampling: _options.Sampling, output: _options.Output,
+) -> int:  # fmt: skip
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
     Without --model: the models and cases of the project's brdf-check.toml (docs/ci.md)."""
-    import math
-
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._requests import Terms, request
-    from montecarlo_brdf.cli._values import models_of
-    from montecarlo_brdf.judge.finding import versions
-    from montecarlo_brdf.report.read import read_report
+    from montecarlo_brdf.report.json import read_report
     from montecarlo_brdf.verify.supervision import Deadline
 
     output.check()
-    versions()  # imports what a report needs while no thread imports anything, and not after Ctrl-C
+    finding.versions()  # imports what a report needs: no thread does yet, nor Ctrl-C
     _options.import_format(output)
     earlier = read_report(baseline) if baseline else None
     if spec:
@@ -112,18 +96,17 @@ def command(
 
 def asked_project(config: Path | None, options: Mapping[str, object]) -> Project:
     """The project of --config, or of the folder one stands in."""
-    from montecarlo_brdf.cli import _project
+    from montecarlo_brdf.cli import _requests
 
-    path = config or _project.find(Path())
+    path = config or _requests.find(Path())
     if path is None:
-        raise UserError(
-            f"give --model, or a {_project.FILE} with [[models]] in this folder or one above it"
-        )
+        file = f"a {_requests.FILE} with [[models]] in this folder or one above it"
+        raise UserError(f"give --model, or {file}")
     given = given_options()
     local = [flag for name, flag in LOCAL.items() if name in given]
     if local:
         raise UserError(f"{', '.join(local)} needs --model: {path} says what to check of which")
-    return _project.read(path, {k: v for k, v in options.items() if k in given & ABOVE})
+    return _requests.read(path, {k: v for k, v in options.items() if k in given & ABOVE})
 
 
 def given_options() -> set[str]:
@@ -135,8 +118,8 @@ def given_options() -> set[str]:
 
 def gather(requests: Sequence[Request], threads: int | None, deadline: Deadline) -> Report:
     """One report over all requests, also when it is interrupted."""
-    from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.verify.results import merged, part_of
+    from montecarlo_brdf.cli._terminal import progress
+    from montecarlo_brdf.verify.question import merged, part_of
 
     reports: list[Report] = []
     try:
@@ -154,29 +137,23 @@ def gather(requests: Sequence[Request], threads: int | None, deadline: Deadline)
 
 def _not_begun(request: Request) -> Report:
     """What an interruption leaves of a request."""
-    from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
-
-    finding = Finding("run", {}, Verdict.INCONCLUSIVE, note="not begun: interrupted")
-    result = Result(request.model.name, {}, "run", [finding])
+    told = Finding("run", {}, Verdict.INCONCLUSIVE, note="not begun: interrupted")
+    result = Result(request.model.name, {}, "run", [told])
     return Report("run", {}, [result], {"seconds": 0.0, "interrupted": True})
 
 
 def finish(report: Report, output: _options.Output, earlier: Report | None) -> int:
     """Deliver the report; the exit code, which with a baseline counts what got worse."""
-    import gc
-
-    interrupted = report.measured["interrupted"]
-    if interrupted:
+    if report.measured["interrupted"]:
         gc.disable()  # with a compiler in memory a collection takes long, and the end is near
-    code = _options.deliver(report, output)
-    if interrupted:
+        _options.deliver(report, output)
         return INTERRUPTED
+    code = _options.deliver(report, output)
     return code if earlier is None else _difference(report, earlier, output.inconclusive)
 
 
 def _difference(report: Report, earlier: Report, policy: Policy | None) -> int:
     """Tell on stderr what changed; the exit code counts only what got worse."""
-    from montecarlo_brdf.judge.finding import EXIT_CODES, Verdict
     from montecarlo_brdf.report import baseline
 
     found = baseline.changes(report, earlier)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._values import Number, Read, listed
+from montecarlo_brdf.cli._options import Read, finite, listed, numbers, parameter_sets
 from montecarlo_brdf.errors import UserError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ Examples:
 @click.option("--precision", "precisions", type=Read(listed), metavar="NAMES",
               help="Judge only these: bfloat16, float16, float32, float64, longdouble. "
               "[--precision float16,float32]")  # fmt: skip
-@click.option("--max-error", type=Number(), default=None,
+@click.option("--max-error", type=finite(), default=None,
               help="Relative error allowed [default: 1e-5 in single, 1e-13 in double]. "
               "[--max-error 1e-4]")  # fmt: skip
 @click.option("--quick", is_flag=True, help="A few seconds: fewer points.")
@@ -45,22 +45,16 @@ Examples:
 @_options.plot(help="Heat maps of the error over angle and roughness. [--plot digits.png]")
 @_options.output_options
 def command(
-    spec: str | None,
-    compare: tuple[str, str] | None,
-    assignments: tuple[str, ...],
-    precisions: list[str] | None,
-    max_error: float | None,
-    quick: bool,
-    at: str | None,
+    spec: str | None, compare: tuple[str, str] | None, assignments: tuple[str, ...],
+    precisions: list[str] | None, max_error: float | None, quick: bool, at: str | None,
     output: _options.Output,
-) -> int:
+) -> int:  # fmt: skip
     """Run the model's own source in half, single, double and long double precision, and compare.
 
     The error of f is what the model's arithmetic adds to the rounding of its inputs, relative to f
     and beyond one rounding of the largest f seen from the same direction.
     """
-    from montecarlo_brdf.cli._progress import progress
-    from montecarlo_brdf.cli._values import parameter_sets
+    from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.stability.specimens import load
     from montecarlo_brdf.verify.stress import stress
 
@@ -86,7 +80,6 @@ def show_point(model: Model, sets: Sequence[Any] | None, text: str) -> int:
     """f at one pair of directions in every precision, and its truth."""
     import numpy as np
 
-    from montecarlo_brdf.cli._values import numbers
     from montecarlo_brdf.stability.arithmetic import exact, ladder
     from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -10,7 +11,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.finding import Bound
+from montecarlo_brdf.judge.finding import Bound, Verdict
 from montecarlo_brdf.model import Property
 
 #: Tolerances are stated, not discovered: docs/statistics.md.
@@ -46,6 +47,20 @@ class Reference(NamedTuple):
             return None
         return {"kind": self.kind, "source": self.source, "error": self.error}
 
+    def excess(self, bound: Bound, value: float) -> float:
+        """How far a value lies outside its bound."""
+        over = value - self.value
+        return abs(over) if bound == Bound.EQUAL else -over if bound == Bound.AT_LEAST else over
+
+    def verdict(self, bound: Bound, value: float, error: float, tolerance: float) -> Verdict:
+        """Held or refuted surely, whatever both errors hide, or inconclusive."""
+        if not math.isfinite(value):
+            return Verdict.FAIL
+        over, slack = self.excess(bound, value), error + self.error
+        if over + slack <= tolerance:
+            return Verdict.PASS
+        return Verdict.FAIL if over - slack > tolerance else Verdict.INCONCLUSIVE
+
 
 class Exact(NamedTuple):
     """The outcome of a deterministic evaluation: the worst value found, its error bound, where."""
@@ -64,8 +79,7 @@ def worst_of(looks: Iterable[Exact]) -> Exact:
     """The largest of some values, of equal ones the last, with the points of all."""
     looks = list(looks)
     found: Exact = max(reversed(looks), key=lambda one: one.value)
-    whole: Exact = found._replace(points=sum(one.points for one in looks))
-    return whole
+    return found._replace(points=sum(one.points for one in looks))
 
 
 class Fit(NamedTuple):

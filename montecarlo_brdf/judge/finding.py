@@ -36,14 +36,8 @@ class Bound(StrEnum):
 
 #: The worst comes first; a run is as bad as its worst finding, and "known" never fails it.
 SEVERITY = tuple(Verdict)
-EXIT_CODES = {
-    Verdict.PASS: 0,
-    Verdict.KNOWN: 0,
-    Verdict.SKIPPED: 0,
-    Verdict.FAIL: 1,
-    Verdict.INCONCLUSIVE: 3,
-    Verdict.ERROR: 4,
-}
+EXIT_CODES = dict.fromkeys((Verdict.PASS, Verdict.KNOWN, Verdict.SKIPPED), 0)
+EXIT_CODES |= {Verdict.FAIL: 1, Verdict.INCONCLUSIVE: 3, Verdict.ERROR: 4}
 
 
 class Policy(StrEnum):
@@ -137,14 +131,10 @@ class Report:
     def to_dict(self) -> dict[str, Any]:
         """Plain data; `results` has nothing that changes between equal runs."""
         return {
-            "schema": SCHEMA,
-            "command": self.command,
-            "verdict": self.verdict,
-            "versions": versions(),
-            "settings": self.settings,
-            "results": [_result(r) for r in self.results],
-            "measured": self.measured,
-        }
+            "schema": SCHEMA, "command": self.command, "verdict": self.verdict,
+            "versions": versions(), "settings": self.settings,
+            "results": [_result(r) for r in self.results], "measured": self.measured,
+        }  # fmt: skip
 
     def to_json(self) -> str:
         """The report as JSON; numbers that are not finite become null: JSON has no name for
@@ -169,18 +159,11 @@ def versions() -> dict[str, str]:
 
 def _result(result: Result) -> dict[str, Any]:
     extra = {k: v for k in ("source", "curves") if (v := getattr(result, k))}
+    told = [{k: v for k, v in vars(f).items() if v not in (None, [])} for f in result.findings]
     return {
-        "model": result.model,
-        "params": result.params,
-        "check": result.check,
-        "verdict": result.verdict,
-        "findings": [_finding(f) for f in result.findings],
-        **extra,
-    }
-
-
-def _finding(finding: Finding) -> dict[str, Any]:
-    return {k: v for k, v in vars(finding).items() if v not in (None, [])}
+        "model": result.model, "params": result.params, "check": result.check,
+        "verdict": result.verdict, "findings": told, **extra,
+    }  # fmt: skip
 
 
 def _plain(value: Any) -> Any:

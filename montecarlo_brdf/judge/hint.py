@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from montecarlo_brdf.judge.claim import MeanClaim
 from montecarlo_brdf.judge.finding import Bound
@@ -25,13 +24,6 @@ NOT_FINITE_WEIGHT = (
     "look for a pdf of 0 where sample draws"
 )
 CLOSE = 2e-3
-
-
-class Cause(NamedTuple):
-    """A likely cause in words; everywhere: it holds for all values alike, no other is sought."""
-
-    text: str
-    everywhere: bool = False
 
 
 def hint(claim: MeanClaim, value: float, only_own: bool = False) -> str | None:

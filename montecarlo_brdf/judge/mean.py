@@ -8,24 +8,22 @@ with more samples, refute it again.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
+from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.judge.claim import Kind, MeanClaim
-from montecarlo_brdf.judge.finding import Finding, Verdict
+from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.judge.claim import Kind, MeanClaim, Reference
+from montecarlo_brdf.judge.finding import Bound, Finding, Verdict
 from montecarlo_brdf.judge.hint import hint
-from montecarlo_brdf.judge.looks import FRESH, GROWTH, looks
-from montecarlo_brdf.judge.opinions import (
-    Opinion,
-    changed,
-    judged,
-    needed,
-    overall,
-    resolves,
-    settled,
-    telling,
-)
+from montecarlo_brdf.statistics import FLOOR
 
+FIRST_LOOK = 1 << 14
+GROWTH = 4
+#: added to the seed for the fresh stream that must confirm a refutation
+FRESH = 1 << 32
 CONFIRMING_REPLICATES = 64
 #: As precise as the look, so that what it resolved can be confirmed, and independent of it, so that
 #: the probabilities of both being wrong multiply. Lattices are not asked: where one mode dominates,
@@ -33,6 +31,143 @@ CONFIRMING_REPLICATES = 64
 CONFIRMING_POINTS = "sobol"
 #: estimators that use nothing of a model but its f
 OF_F_ALONE = ("uniform", "cosine")
+#: how often a deviation of the size `resolves` may escape
+ESCAPES = 0.05
+#: how often the spread of another run may exceed what `resolves` allows for
+LUCK = 5e-3
+#: an error falls like samples^-FASTEST at best: that of good points for a narrow lobe
+FASTEST = 1.0
+#: standard errors that the truth is from an estimate at most, where that only saves work
+SURE = 4.0
+UNFIT = "unfit"  # instead of a verdict, of an estimator that is not to be believed
+
+
+class Opinion(NamedTuple):
+    """What one estimator says of a claim at one look."""
+
+    measurement: Measurement
+    half_width: float
+    verdict: str  # a Verdict or UNFIT
+
+
+Opinions = list[Opinion]
+
+
+def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> Opinions:
+    """Every estimator's opinion; the level is shared by those that are fit."""
+    fit = [m for m in measurements if not m.unfit]
+    each = level / max(1, len(fit))
+    best = min(fit, key=lambda m: m.half_width(each), default=None)
+    opinions = []
+    for m in measurements:
+        half = m.half_width(each)
+        verdict = UNFIT if m.unfit else _verdict(claim, m, best, half, each)
+        opinions.append(Opinion(m, half, verdict))
+    if claim.expected is None and sum(o.verdict == Verdict.PASS for o in opinions) < 2:
+        # one estimator alone agrees with itself
+        opinions = changed(opinions, lambda o: o.verdict == Verdict.PASS, Verdict.INCONCLUSIVE)
+    if claim.bound == Bound.AT_MOST and best is not None:
+        # a bound is decided by the most precise estimator; the others only speak up to refute
+        quiet = (UNFIT, Verdict.FAIL)
+        opinions = changed(
+            opinions, lambda o: o.measurement is not best and o.verdict not in quiet, Verdict.PASS
+        )
+    return opinions
+
+
+def changed(opinions: Opinions, which: Callable[[Opinion], bool], to: Verdict) -> Opinions:
+    """The opinions, with another verdict for some."""
+    return [o._replace(verdict=to) if which(o) else o for o in opinions]
+
+
+def _verdict(
+    claim: MeanClaim, m: Measurement, best: Measurement | None, half: float, level: float
+) -> Verdict:
+    value, expected = m.estimate.mean, claim.expected
+    if expected is None:
+        if best is None or m is best:
+            return Verdict.PASS if math.isfinite(value) else Verdict.FAIL
+        expected = Reference(best.estimate.mean, best.half_width(level), Kind.SAME_F, "")
+    return expected.verdict(claim.bound, value, half, claim.tolerance)
+
+
+def overall(opinions: Opinions) -> Verdict:
+    """Refuted by any, else held by those that resolve the tolerance, else inconclusive."""
+    verdicts = {o.verdict for o in opinions}
+    if Verdict.FAIL in verdicts:
+        return Verdict.FAIL
+    return Verdict.PASS if Verdict.PASS in verdicts else Verdict.INCONCLUSIVE
+
+
+def needed(claim: MeanClaim, opinion: Opinion, rate: float = 0.5) -> float:
+    """Samples that would resolve the tolerance, the error falling like samples^-rate."""
+    room = claim.tolerance - (claim.expected.error if claim.expected else 0.0)
+    samples = opinion.measurement.estimate.samples
+    return samples * (opinion.half_width / room) ** (1.0 / rate) if room > 0.0 else math.inf
+
+
+def settled(claim: MeanClaim, opinions: Opinions, most: int) -> bool:
+    """Whether sampling on, up to `most`, changes nothing: the claim is held, and no other
+    estimator will resolve the tolerance, nor refute what it does not look like refuting."""
+    return overall(opinions) == Verdict.PASS and all(
+        o.verdict == Verdict.PASS or _hopeless(claim, o, most) for o in opinions
+    )
+
+
+def _hopeless(claim: MeanClaim, o: Opinion, most: int) -> bool:
+    e, expected = o.measurement.estimate, claim.expected
+    if o.verdict == UNFIT:
+        return o.measurement.needs > most
+    if expected is None or needed(claim, o, FASTEST) <= most:
+        return False
+    over = expected.excess(claim.bound, e.mean)
+    in_the_end = o.half_width * math.sqrt(e.samples / most)
+    return over + SURE * e.stderr <= claim.tolerance + expected.error + in_the_end
+
+
+def telling(opinions: Opinions) -> Opinion:
+    """The opinion that a finding shows: one that refutes, else the most precise that decided.
+
+    Samples come before a quadrature: its value is shown where they leave the claim open.
+    """
+    order = {Verdict.FAIL: 0, Verdict.PASS: 1, Verdict.INCONCLUSIVE: 2, UNFIT: 3}
+
+    def rank(o: Opinion) -> tuple[int, bool, float]:
+        return order[o.verdict], o.measurement.bound is not None, o.half_width
+
+    return min(opinions, key=rank)
+
+
+def resolves(claim: MeanClaim, opinion: Opinion, level: float, share: float) -> float:
+    """The deviation that a run like this fails with probability 95 % at least.
+
+    Nothing that deviates by more than the tolerance passes at any look, so the last one decides:
+    with `level` for this estimator, and with an error that is smaller at least like samples^-1/2,
+    down to rounding; this look took a `share` of its samples. Another seed has another spread, and
+    this one may be small by chance. So the ratio of two spreads counts, the root of an
+    F(dof, dof), whose quantiles are those of Student's t: Cacoullos 1965, "A relation between t
+    and F-distributions", t = sinh(log(ratio)) sqrt(dof).
+    """
+    e = opinion.measurement.estimate
+    known = claim.tolerance + (claim.expected.error if claim.expected else 0.0)
+    if opinion.measurement.bound is not None:
+        return known + opinion.half_width
+    if e.dof < 1:
+        return math.inf
+    wider = math.exp(math.asinh(student.quantile(LUCK, e.dof) / math.sqrt(e.dof)))
+    last = max(e.stderr * math.sqrt(share), FLOOR * abs(e.mean))
+    widths = student.quantile(level / 2.0, e.dof) + student.quantile(ESCAPES, e.dof)
+    return known + wider * widths * last
+
+
+def looks(most: int) -> list[int]:
+    """Sample sizes of the looks, the last one being all that is allowed."""
+    sizes = []
+    size = min(FIRST_LOOK, most)
+    while size < most:
+        sizes.append(size)
+        size *= GROWTH
+    return [*sizes, most]
 
 
 def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
@@ -55,7 +190,7 @@ def _of_same_f(claim: MeanClaim) -> bool:
     return claim.expected is not None and claim.expected.kind == Kind.SAME_F
 
 
-def _resolving(claim: MeanClaim, opinions: list[Opinion]) -> Opinion:
+def _resolving(claim: MeanClaim, opinions: Opinions) -> Opinion:
     """The opinion that says which deviation would be caught: the one shown, but where a quadrature
     says the same f that of the model's own draws, as others refute the quadrature."""
     own = [o for o in opinions if o.measurement.estimator not in OF_F_ALONE]
@@ -63,15 +198,15 @@ def _resolving(claim: MeanClaim, opinions: list[Opinion]) -> Opinion:
     return telling(drawn if drawn and _of_same_f(claim) else opinions)
 
 
-def _missed(opinions: list[Opinion]) -> bool:
+def _missed(opinions: Opinions) -> bool:
     """Whether samples of f refute a quadrature of the same f: it has missed something."""
     refuting = [o.measurement for o in opinions if o.verdict == Verdict.FAIL]
     return any(m.estimator in OF_F_ALONE and math.isfinite(m.estimate.mean) for m in refuting)
 
 
-def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[list[Opinion], int]:
+def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[Opinions, int]:
     """What all estimators say at last, and the samples of that look."""
-    opinions: list[Opinion] = []
+    opinions: Opinions = []
     for look, samples in enumerate(looks(plan.samples), start=1):
         spent = level * 2.0**-look
         sized = plan._replace(samples=samples)
@@ -85,17 +220,15 @@ def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[list[Opinion
     return opinions, sized.samples
 
 
-def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: list[Opinion]) -> list[Opinion]:
+def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: Opinions) -> Opinions:
     """The opinions, a refutation being inconclusive unless the same estimator refutes again, by
     fresh and more randomisations."""
     if overall(opinions) != Verdict.FAIL:
         return opinions
     fresh = plan._replace(
-        points=CONFIRMING_POINTS,
-        replicates=CONFIRMING_REPLICATES,
-        samples=GROWTH * plan.samples,
+        points=CONFIRMING_POINTS, replicates=CONFIRMING_REPLICATES, samples=GROWTH * plan.samples,
         seed=plan.seed + FRESH,
-    )
+    )  # fmt: skip
     again = judged(claim, claim.measure(fresh), level)
     sure = {o.measurement.estimator for o in again if o.verdict == Verdict.FAIL}
     return changed(
@@ -105,9 +238,7 @@ def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: list[Opinion
     )
 
 
-def _asked_last(
-    claim: MeanClaim, opinions: list[Opinion], seed: int, level: float
-) -> list[Opinion]:
+def _asked_last(claim: MeanClaim, opinions: Opinions, seed: int, level: float) -> Opinions:
     """With what is asked where samples left the claim open; a refutation counts if repeated."""
     assert claim.fallback
     found = judged(claim, [claim.fallback(seed)], level)
@@ -117,9 +248,7 @@ def _asked_last(
     return [*opinions, *found]
 
 
-def _compared_last(
-    claim: MeanClaim, opinions: list[Opinion], seed: int, level: float
-) -> list[Opinion]:
+def _compared_last(claim: MeanClaim, opinions: Opinions, seed: int, level: float) -> Opinions:
     """The same where estimators are held against each other: the most precise one may have had
     none beside it. Two that agree hold the claim; two that do not leave it open."""
     assert claim.fallback
@@ -136,7 +265,7 @@ def _compared_last(
 
 def _finding(
     claim: MeanClaim,
-    opinions: list[Opinion],
+    opinions: Opinions,
     level: float,
     looked: tuple[int, int],  # samples of the last look taken, and of the last one allowed
     known: str | None,
@@ -149,26 +278,16 @@ def _finding(
     e, expected = shown.measurement.estimate, claim.expected
     note = known if verdict == Verdict.KNOWN else _note(claim, verdict, opinions) or e.method
     return Finding(
-        quantity=claim.quantity,
-        where=dict(claim.where),
-        verdict=verdict,
-        bound=claim.bound,
-        value=e.mean,
-        stderr=e.stderr,
-        expected=expected.value if expected else None,
-        tolerance=claim.tolerance,
-        resolves=resolves(claim, _resolving(claim, opinions), last, looked[0] / looked[1]),
-        level=level,
-        samples=e.samples,
-        estimator=shown.measurement.estimator,
-        reference=expected.told() if expected else None,
-        estimators=[_row(claim, o) for o in opinions],
-        note=note or None,
-        hint=_hint(claim, e.mean, opinions) if verdict in (Verdict.FAIL, Verdict.KNOWN) else None,
-    )
+        claim.quantity, dict(claim.where), verdict, claim.bound, e.mean, e.stderr,
+        expected.value if expected else None, claim.tolerance,
+        resolves(claim, _resolving(claim, opinions), last, looked[0] / looked[1]), level,
+        e.samples, shown.measurement.estimator, expected.told() if expected else None,
+        [_row(claim, o) for o in opinions], note or None,
+        _hint(claim, e.mean, opinions) if verdict in (Verdict.FAIL, Verdict.KNOWN) else None,
+    )  # fmt: skip
 
 
-def _hint(claim: MeanClaim, value: float, opinions: list[Opinion]) -> str | None:
+def _hint(claim: MeanClaim, value: float, opinions: Opinions) -> str | None:
     found = [(o.measurement.estimator, o.measurement.estimate.mean) for o in opinions]
     # where only the model's own draws spoil the mean it is rather the pdf that they are divided by
     others = [v for name, v in found if name != "own"]
@@ -178,12 +297,9 @@ def _hint(claim: MeanClaim, value: float, opinions: list[Opinion]) -> str | None
 def _row(claim: MeanClaim, opinion: Opinion) -> dict[str, object]:
     m = opinion.measurement
     row: dict[str, object] = {
-        "estimator": m.estimator,
-        "value": m.estimate.mean,
-        "stderr": m.estimate.stderr,
-        "samples": m.estimate.samples,
-        "verdict": opinion.verdict,
-    }
+        "estimator": m.estimator, "value": m.estimate.mean, "stderr": m.estimate.stderr,
+        "samples": m.estimate.samples, "verdict": opinion.verdict,
+    }  # fmt: skip
     if m.unfit:
         row["not_used"] = m.unfit
     elif opinion.verdict == Verdict.INCONCLUSIVE:
@@ -199,14 +315,13 @@ def _more(claim: MeanClaim, opinion: Opinion) -> float:
     return max(needed(claim, opinion), GROWTH * opinion.measurement.estimate.samples)
 
 
-def _note(claim: MeanClaim, verdict: Verdict, opinions: list[Opinion]) -> str | None:
+def _note(claim: MeanClaim, verdict: Verdict, opinions: Opinions) -> str | None:
     """What an inconclusive finding needs."""
     if verdict != Verdict.INCONCLUSIVE:
         return None
-    reasons = [o.measurement.unfit for o in opinions if o.measurement.unfit]
     fit = [o for o in opinions if not o.measurement.unfit]
     if fit:
         need = min(_more(claim, o) for o in fit)
         samples = fit[0].measurement.estimate.samples
         return f"undecided at {samples} samples: needs about {need:.0e}, allow more with --samples"
-    return reasons[0] if reasons else None
+    return opinions[0].measurement.unfit if opinions else None

@@ -14,11 +14,7 @@ from montecarlo_brdf.judge.finding import EXIT_CODES, SEVERITY, Report, Verdict,
 
 #: kinds of change, in the order in which they are told; the first two decide the exit code
 KINDS = ("new failure", "newly undecided", "fixed", "changed", "new", "gone")
-BAD = {
-    Verdict.FAIL: "new failure",
-    Verdict.ERROR: "new failure",
-    Verdict.INCONCLUSIVE: "newly undecided",
-}
+BAD = {Verdict.FAIL: KINDS[0], Verdict.ERROR: KINDS[0], Verdict.INCONCLUSIVE: KINDS[1]}
 
 
 class Change(NamedTuple):

@@ -5,7 +5,7 @@ import textwrap
 from typing import Any
 
 from montecarlo_brdf.report.pictures.style import COLOURS
-from montecarlo_brdf.report.sentences import called
+from montecarlo_brdf.report.text import called
 
 #: A line and a marker for each point set, and for "auto"; colours stand for samplers.
 STYLES = {"independent": ":o", "stratified": "-.s", "sobol": "--^", "lattice": "-D", "": "-*"}

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result
-from montecarlo_brdf.report.sentences import shown
+from montecarlo_brdf.report.text import shown
 
 NUMBERS = ("value", "stderr", "expected", "tolerance", "resolves", "samples")
 WORDS = ("estimator", "note", "hint", "reproduce")
@@ -24,17 +24,10 @@ def render(report: Report) -> str:
 
 
 def _row(result: Result, finding: Finding) -> list[Any]:
-    return [
-        result.model,
-        _pairs(result.params),
-        result.check,
-        finding.quantity,
-        _pairs(finding.where),
-        finding.verdict,
-        finding.bound,
-        *(_number(getattr(finding, name)) for name in NUMBERS),
-        *(getattr(finding, name) or "" for name in WORDS),
-    ]
+    subject = (result.model, _pairs(result.params), result.check, finding.quantity)
+    numbers = (_number(getattr(finding, name)) for name in NUMBERS)
+    words = (getattr(finding, name) or "" for name in WORDS)
+    return [*subject, _pairs(finding.where), finding.verdict, finding.bound, *numbers, *words]
 
 
 def _pairs(values: dict[str, Any]) -> str:

@@ -13,11 +13,6 @@ from montecarlo_brdf.judge.finding import Report
 SUFFIXES = {"csv": ".csv", "github": "", "json": ".json", "junit": ".xml", "markdown": ".md"}
 
 
-def names() -> list[str]:
-    """All formats."""
-    return list(SUFFIXES)
-
-
 def suffixes() -> dict[str, str]:
     """{".xml": "junit", ...}"""
     return {suffix: name for name, suffix in SUFFIXES.items() if suffix}

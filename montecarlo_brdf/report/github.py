@@ -5,25 +5,16 @@ The same run writes the Markdown report into $GITHUB_STEP_SUMMARY where that is 
 from __future__ import annotations
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
-from montecarlo_brdf.report.sentences import case, explanation, statement, tally
+from montecarlo_brdf.report.text import case, explanation, statement, tally
 
 #: what is annotated, and how
-LEVELS = {
-    Verdict.ERROR: "error",
-    Verdict.FAIL: "error",
-    Verdict.INCONCLUSIVE: "warning",
-    Verdict.KNOWN: "notice",
-}
+LEVELS = {Verdict.ERROR: "error", Verdict.FAIL: "error"}
+LEVELS |= {Verdict.INCONCLUSIVE: "warning", Verdict.KNOWN: "notice"}
 
 
 def render(report: Report) -> str:
     """One command per finding that needs attention, and a last line with the verdict."""
-    lines = [
-        _command(result, finding)
-        for result in report.results
-        for finding in result.findings
-        if finding.verdict in LEVELS
-    ]
+    lines = [_command(r, f) for r in report.results for f in r.findings if f.verdict in LEVELS]
     counts = tally(f for r in report.results for f in r.findings)
     return "\n".join([*lines, f"brdf-check {report.command}: {report.verdict}; {counts}"]) + "\n"
 
@@ -33,7 +24,7 @@ def _command(result: Result, finding: Finding) -> str:
     where = {**result.source, "title": title}
     properties = ",".join(f"{name}={_property(str(value))}" for name, value in where.items())
     message = "\n".join([statement(finding), *explanation(finding)])
-    return f"::{LEVELS[Verdict(finding.verdict)]} {properties}::{_data(message)}"
+    return f"::{LEVELS[finding.verdict]} {properties}::{_data(message)}"
 
 
 def _data(text: str) -> str:

@@ -1,10 +1,66 @@
-"""JSON: the whole report, with a versioned schema."""
+"""JSON: the whole report, with a versioned schema; written, and read again."""
 
 from __future__ import annotations
 
-from montecarlo_brdf.judge.finding import Report
+import json
+from pathlib import Path
+from typing import Any
+
+from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge.finding import SCHEMA, Bound, Finding, Report, Result, Verdict
+
+NUMBER = (int, float)
+#: members of a result and of a finding -> their type; others are not looked at
+Types = dict[str, type | tuple[type, ...]]
+RESULT: Types = {"model": str, "params": dict, "check": str}
+RESULT |= {"findings": list, "curves": list, "source": dict}
+FINDING: Types = {"quantity": str, "where": dict, "estimators": list}
+FINDING |= dict.fromkeys(("value", "stderr", "expected", "tolerance", "resolves", "level"), NUMBER)
 
 
 def render(report: Report) -> str:
     """The report as JSON text."""
     return report.to_json()
+
+
+def read_report(path: Path) -> Report:
+    """The report in a JSON file, or a UserError that says what is wrong with the file."""
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise UserError(f"cannot read {path}: {error.strerror or error}") from error
+    except (ValueError, RecursionError) as error:
+        raise UserError(f"{path} is not a report: it is not JSON ({error})") from error
+    if not isinstance(data, dict) or not isinstance(data.get("results"), list):
+        raise UserError(f"{path} is not a report of brdf-check")
+    if data.get("schema") != SCHEMA:
+        found = data.get("schema")
+        raise UserError(f"{path} has schema {found}; this version reads schema {SCHEMA}")
+    try:
+        results = [_result(result) for result in data["results"]]
+        settings, measured = (dict(data.get(name, {})) for name in ("settings", "measured"))
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        sentence = f"{path} is not a report of brdf-check: its results are damaged"
+        raise UserError(sentence) from error
+    return Report(str(data.get("command")), settings, results, measured)
+
+
+def _result(data: dict[str, Any]) -> Result:
+    known = _known(data, RESULT)
+    known.pop("verdict", None)  # that of its findings
+    return Result(**{**known, "findings": [_finding(f) for f in known["findings"]]})
+
+
+def _finding(data: dict[str, Any]) -> Finding:
+    known = _known(data, FINDING)
+    verdict, bound = Verdict(known["verdict"]), Bound(known.get("bound", Bound.EQUAL))
+    return Finding(**{**known, "verdict": verdict, "bound": bound})
+
+
+def _known(data: dict[str, Any], types: Types) -> dict[str, Any]:
+    """Without what is null: a number that was not finite."""
+    known = {name: value for name, value in data.items() if value is not None}
+    for name in known.keys() & types.keys():
+        if not isinstance(known[name], types[name]):
+            raise TypeError(name)
+    return known

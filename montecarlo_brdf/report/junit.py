@@ -10,27 +10,22 @@ from __future__ import annotations
 import re
 from collections import Counter
 from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
-from montecarlo_brdf.report.sentences import case, explanation, origin, place, statement
-from montecarlo_brdf.report.text import grouped
+from montecarlo_brdf.judge.finding import Finding, Policy, Report, Result, Verdict
+from montecarlo_brdf.report.text import case, explanation, grouped, origin, place, statement
 
-OUTCOMES = {
-    Verdict.FAIL: "failure",
-    Verdict.ERROR: "error",
-    Verdict.INCONCLUSIVE: "error",
-    Verdict.SKIPPED: "skipped",
-}
-INCONCLUSIVE = {"pass": "skipped", "fail": "failure"}
+OUTCOMES = {Verdict.FAIL: "failure", Verdict.ERROR: "error", Verdict.SKIPPED: "skipped"}
+INCONCLUSIVE: dict[str | None, str] = {Policy.PASS: "skipped", Policy.FAIL: "failure"}
 #: characters that XML has no way to write
 FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def render(report: Report) -> str:
     """The whole report as one <testsuites>."""
-    policy = str(report.settings.get("inconclusive"))
-    outcomes = {**OUTCOMES, Verdict.INCONCLUSIVE: INCONCLUSIVE.get(policy, "error")}
-    root = ElementTree.Element("testsuites", name=f"brdf-check {report.command}")
+    undecided = INCONCLUSIVE.get(report.settings.get("inconclusive"), "error")
+    outcomes = {**OUTCOMES, Verdict.INCONCLUSIVE: undecided}
+    root = Element("testsuites", name=f"brdf-check {report.command}")
     for group in grouped(report.results):
         _suite(root, group, report, outcomes)
     counts = [_counts(suite) for suite in root]
@@ -41,20 +36,20 @@ def render(report: Report) -> str:
 
 
 def _suite(
-    root: ElementTree.Element, group: list[Result], report: Report, outcomes: dict[Verdict, str]
+    root: Element, group: list[Result], report: Report, outcomes: dict[Verdict, str]
 ) -> None:
     name = _legal(case(group[0]) or group[0].check)
-    suite = ElementTree.SubElement(root, "testsuite", name=name)
-    properties = ElementTree.SubElement(suite, "properties")
+    suite = SubElement(root, "testsuite", name=name)
+    properties = SubElement(suite, "properties")
     for key in ("seed", "samples", "points"):
         value = str(report.settings.get(key, ""))
-        ElementTree.SubElement(properties, "property", name=key, value=value)
+        SubElement(properties, "property", name=key, value=value)
     for result in group:
         # a dot separates packages in a class name, so those of numbers and file names must go
         owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
         for finding, title in zip(result.findings, _titles(result), strict=True):
-            test = ElementTree.SubElement(suite, "testcase", classname=owner, name=title)
-            _tell(test, result, finding, outcomes.get(Verdict(finding.verdict)))
+            test = SubElement(suite, "testcase", classname=owner, name=title)
+            _tell(test, result, finding, outcomes.get(finding.verdict))
     for key, number in _counts(suite).items():
         suite.set(key, str(number))
 
@@ -75,21 +70,18 @@ def _titles(result: Result) -> list[str]:
     return titles
 
 
-def _tell(
-    test: ElementTree.Element, result: Result, finding: Finding, outcome: str | None
-) -> None:
-    lines = [statement(finding), *explanation(finding), *origin(result)]
+def _tell(test: Element, result: Result, finding: Finding, outcome: str | None) -> None:
+    text = _legal("\n".join([statement(finding), *explanation(finding), *origin(result)]))
     if outcome:
         # readers show the message alone: of what was never evaluated only the note tells anything
         told_by_note = outcome == "skipped" or finding.samples is None
         message = finding.note or finding.verdict if told_by_note else statement(finding)
-        told = ElementTree.SubElement(test, outcome, type=finding.verdict, message=_legal(message))
-        told.text = _legal("\n".join(lines))
+        SubElement(test, outcome, type=finding.verdict, message=_legal(message)).text = text
     else:
-        ElementTree.SubElement(test, "system-out").text = _legal("\n".join(lines))
+        SubElement(test, "system-out").text = text
 
 
-def _counts(suite: ElementTree.Element) -> dict[str, int]:
+def _counts(suite: Element) -> dict[str, int]:
     found = {"tests": "testcase", "failures": "failure", "errors": "error", "skipped": "skipped"}
     return {name: len(list(suite.iter(tag))) for name, tag in found.items()}
 

@@ -4,8 +4,18 @@ from __future__ import annotations
 import html
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result
-from montecarlo_brdf.report.sentences import BAD, bound, case, explanation, place, statement, tally
-from montecarlo_brdf.report.text import grouped, loud, most_telling
+from montecarlo_brdf.report.text import (
+    BAD,
+    bound,
+    case,
+    explanation,
+    grouped,
+    loud,
+    most_telling,
+    place,
+    statement,
+    tally,
+)
 
 HEADER = ("check", "worst", "estimate", "bound", "where", "verdict")
 

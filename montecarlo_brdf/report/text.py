@@ -1,25 +1,111 @@
-"""A report as people read it on a terminal: a table, then what needs attention."""
+"""A report in words, as people read it on a terminal: a table, then what needs attention; and the
+sentences that all formats share: a finding's place, its bound, its value."""
 
 from __future__ import annotations
 
 import itertools
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.judge.finding import SEVERITY, Bound, Finding, Report, Result, Verdict, worst
 from montecarlo_brdf.report.columns import NO_BREAK, Column, Row, Style, painted, table
-from montecarlo_brdf.report.sentences import SYMBOLS, bound, case, coordinate, place, tally
+
+SYMBOLS = {f"{a}_{d}_deg": f"{a}_{d}" for a in ("theta", "phi") for d in "oi"} | {"channel": "ch"}
+SIGNS = {Bound.AT_MOST: "<= ", Bound.AT_LEAST: ">= ", Bound.EQUAL: ""}
+#: what needs somebody's attention
+BAD = (Verdict.ERROR, Verdict.FAIL, Verdict.INCONCLUSIVE)
+#: as a summary counts them
+ORDER = (Verdict.PASS, Verdict.FAIL, Verdict.ERROR,
+         Verdict.INCONCLUSIVE, Verdict.KNOWN, Verdict.SKIPPED)  # fmt: skip
+
+
+def case(result: Result) -> str:
+    """'lambert(albedo=0.8)'; empty if the result is of no model."""
+    return called(result.model, result.params) if result.model else ""
+
+
+def called(model: str, params: Mapping[str, Any]) -> str:
+    """A model with its parameters."""
+    values = ", ".join(f"{k}={shown(v)}" for k, v in params.items())
+    return f"{model}({values})" if values else model
+
+
+def shown(value: Any) -> str:
+    """A parameter as it would be typed: 0.5, or 1/0.7/0.3 for a colour."""
+    if isinstance(value, (tuple, list)):
+        return "/".join(shown(v) for v in value)
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def coordinate(name: str, value: Any) -> str:
+    """The value of one coordinate of a place."""
+    if value is None:
+        return ""
+    if name.endswith("_deg"):
+        return f"{value:g}°"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def place(finding: Finding, glue: str = " ") -> str:
+    """'theta_o 45° ch 1'; empty if the finding is about everything. `glue` holds a name to its
+    value."""
+    return " ".join(
+        f"{SYMBOLS.get(k, k)}{glue}{coordinate(k, v)}" for k, v in finding.where.items()
+    )
+
+
+def bound(finding: Finding) -> str:
+    """'<= 1 +- 1.0e-05'."""
+    if finding.expected is None:
+        return ""
+    tolerance = f" +- {finding.tolerance:.1e}" if finding.tolerance else ""
+    return f"{SIGNS[Bound(finding.bound)]}{finding.expected:.8g}{tolerance}"
+
+
+def statement(finding: Finding) -> str:
+    """'A <= 1 at theta_o 45°: found 1.0500(3), allowed <= 1 +- 1.0e-05'."""
+    at = f" at {place(finding)}" if finding.where else ""
+    if finding.samples is None:  # never evaluated
+        return f"{finding.quantity}{at}"
+    allowed = f", allowed {bound(finding)}" if finding.expected is not None else ""
+    return f"{finding.quantity}{at}: found {finding.number}{allowed}"
+
+
+def explanation(finding: Finding) -> list[str]:
+    """Note, hint and reproduction command, each on a line of its own."""
+    rows = (("note", finding.note), ("hint", finding.hint), ("reproduce", finding.reproduce))
+    return [f"{name}: {text}" for name, text in rows if text]
+
+
+def tally(findings: Iterable[Finding]) -> str:
+    """'33 pass, 1 skipped'."""
+    counts = Counter(f.verdict for f in findings)
+    return ", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v])
+
+
+def origin(result: Result) -> list[str]:
+    """'f: my_brdf.py:12', where it is known."""
+    return [f"f: {result.source['file']}:{result.source['line']}"] if result.source else []
+
+
+def failures(report: Report, verdicts: set[Verdict], reproducible: bool) -> list[str]:
+    """The findings with some verdicts in full: what was found, the cause, the command."""
+    lines = []
+    for result in report.results:
+        for f in (f for f in result.findings if f.verdict in verdicts):
+            lines.append(f"{f.verdict} {result.check}: {statement(f)}")
+            rest = explanation(f if reproducible else replace(f, reproduce=None))
+            lines += [f"    {line}" for line in [*rest, *origin(result)]]
+    return lines
+
 
 STYLES = {
-    Verdict.PASS: Style.GREEN,
-    Verdict.FAIL: Style.LOUD,
-    Verdict.ERROR: Style.LOUD,
-    Verdict.INCONCLUSIVE: Style.YELLOW,
-    Verdict.KNOWN: Style.CYAN,
-    Verdict.SKIPPED: Style.DIM,
-}
+    Verdict.PASS: Style.GREEN, Verdict.FAIL: Style.LOUD, Verdict.ERROR: Style.LOUD,
+    Verdict.INCONCLUSIVE: Style.YELLOW, Verdict.KNOWN: Style.CYAN, Verdict.SKIPPED: Style.DIM,
+}  # fmt: skip
 PLAIN_WIDTH = 118  # where there is no terminal
 
 
@@ -123,28 +209,21 @@ def _check(result: Result) -> Row:
     known = f.expected is not None and math.isfinite(f.value)
     nothing = f.verdict == Verdict.PASS and f.as_wished
     return (
-        result.check,
-        str(sum(g.verdict != Verdict.SKIPPED for g in result.findings)),
-        f.quantity if known else "",
-        f.number if known else "",
-        bound(f) if known else "",
-        "" if nothing else place(f, NO_BREAK),
-        loud(f.verdict),
-    )
+        result.check, str(sum(g.verdict != Verdict.SKIPPED for g in result.findings)),
+        f.quantity if known else "", f.number if known else "", bound(f) if known else "",
+        "" if nothing else place(f, NO_BREAK), loud(f.verdict),
+    )  # fmt: skip
 
 
 def _finding(f: Finding, places: list[str]) -> Row:
     sign = "<= " if f.bound == Bound.AT_MOST else ""
     return (
-        *(coordinate(k, f.where.get(k)) for k in places),
-        f.quantity,
-        f.number,
+        *(coordinate(k, f.where.get(k)) for k in places), f.quantity, f.number,
         "" if f.expected is None else f"{sign}{f.expected:.8g}",
         "" if f.tolerance is None else f"{f.tolerance:.1e}",
-        "" if f.resolves is None else f"{f.resolves:.1e}",
-        f.estimator or "",
+        "" if f.resolves is None else f"{f.resolves:.1e}", f.estimator or "",
         f.verdict if f.verdict == Verdict.PASS else f.verdict.upper(),
-    )
+    )  # fmt: skip
 
 
 def _attention(result: Result, verbose: bool, about: str = "") -> Iterator[str]:
@@ -183,17 +262,13 @@ def _precision(result: Result, measured: Mapping[str, Any]) -> Row:
     verdicts = {f.verdict for f in result.findings if f.where["precision"] == measured["name"]}
     verdict = worst(verdicts - {Verdict.PASS} or verdicts)  # one that is known is told
     return (
-        measured["name"],
-        str(measured["points"]),
-        f"{measured['worst']:.1e}",
-        f"{measured['worst'] / eps:.2g}",
-        f"{measured['allowed']:.0e}",
+        measured["name"], str(measured["points"]), f"{measured['worst']:.1e}",
+        f"{measured['worst'] / eps:.2g}", f"{measured['allowed']:.0e}",
         f"{measured['with_inputs']:.1e}",
         *(str(measured[kind]) for kind in ("nan", "inf", "negative", "flushed")),
-        f"{name} {sharpest}" if name else "",
-        "" if length is None else f"{length / eps:.1f} eps",
+        f"{name} {sharpest}" if name else "", "" if length is None else f"{length / eps:.1f} eps",
         verdict if verdict == Verdict.PASS else verdict.upper(),
-    )
+    )  # fmt: skip
 
 
 def _broken(result: Result) -> Iterator[str]:

@@ -19,7 +19,7 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.verify.converge import reference_of
-from montecarlo_brdf.verify.results import Progress, shown_parameters
+from montecarlo_brdf.verify.question import Progress, shown_parameters
 
 TARGETS = (1e-2, 1e-3, 1e-4, 1e-6)
 SIZES = tuple(1 << k for k in range(8, 25))  # 16 replicates: as far as there are lattices

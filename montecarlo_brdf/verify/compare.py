@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import functools
-import time
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
@@ -10,40 +9,27 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import equality
 from montecarlo_brdf.checks._truth import quadrature
 from montecarlo_brdf.estimate.arguments import check_theta
-from montecarlo_brdf.judge.claim import (
-    AGREEMENT_TOLERANCE,
-    Exact,
-    ExactClaim,
-    Kind,
-    Reference,
-)
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound, Report
 from montecarlo_brdf.model import Model, channels
-from montecarlo_brdf.report.sentences import called
+from montecarlo_brdf.report.text import called
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.furnace import ANGLES
-from montecarlo_brdf.verify.results import (
+from montecarlo_brdf.verify.question import (
     Progress,
     Question,
+    Settings,
     answered,
     probed,
-    reported,
     shown_parameters,
 )
-from montecarlo_brdf.verify.settings import Settings
 
 
 def compare(
-    model: Model,
-    other: Model,
-    cases: Sequence[tuple[Any, Any]] | None = None,
-    theta_o_deg: Sequence[float] = ANGLES,
-    *,
-    phi_o_deg: float = 0.0,
-    tolerance: float | None = None,
-    seed: int = 0,
-    progress: Progress | None = None,
-) -> Report:
+    model: Model, other: Model, cases: Sequence[tuple[Any, Any]] | None = None,
+    theta_o_deg: Sequence[float] = ANGLES, *, phi_o_deg: float = 0.0,
+    tolerance: float | None = None, seed: int = 0, progress: Progress | None = None,
+) -> Report:  # fmt: skip
     """Whether two models agree: f over thousands of pairs of directions, A(wo) and R(wi) by
     quadrature with error bounds.
 
@@ -57,7 +43,6 @@ def compare(
     """
     angles = [check_theta(a) for a in theta_o_deg]
     settings = Settings(seed=seed, tolerance=tolerance)
-    started = time.perf_counter()
     questions = []
     for p, q in cases or [(model.parameters(), other.parameters())]:
         second = other.of(q)
@@ -65,9 +50,8 @@ def compare(
         title = f"against {called(other.name, shown_parameters(second, q))}"
         case = Case(model.of(p), p, angles, phi_o_deg, tolerance=tolerance, seed=seed)
         questions.append(Question(title, case, functools.partial(claims, other=second, q=q)))
-    results = answered(questions, settings.plan, 1 + 2 * len(angles), progress)
     told = {"theta_o_deg": angles, "phi_o_deg": phi_o_deg, "tolerance": tolerance, "seed": seed}
-    return reported("compare", told, results, started)
+    return answered("compare", told, questions, settings.plan, 1 + 2 * len(angles), progress)
 
 
 def claims(case: Case, other: Model, q: NamedTuple) -> Iterator[ExactClaim]:
@@ -91,21 +75,15 @@ def claims(case: Case, other: Model, q: NamedTuple) -> Iterator[ExactClaim]:
 
 
 def _albedo(
-    case: Case,
-    other: Model,
-    pair: tuple[Any, Any],
-    theta: float,
-    reverse: bool,
+    case: Case, other: Model, pair: tuple[Any, Any], theta: float, reverse: bool,
     channel: dict[str, int],
-) -> ExactClaim:
+) -> ExactClaim:  # fmt: skip
     fixed = from_degrees(theta, case.phi_o_deg)
     value, error = quadrature(other, pair[1], fixed, reverse)
     place = {f"theta_{'i' if reverse else 'o'}_deg": theta, **channel}
     return ExactClaim(
-        "R" if reverse else "A",
-        case.where(**place),
-        Bound.EQUAL,
+        "R" if reverse else "A", case.where(**place), Bound.EQUAL,
         Reference(value, error, Kind.OTHER_MODEL, other.name),
         case.tolerated(AGREEMENT_TOLERANCE) * abs(value),
         lambda: Exact(*quadrature(case.model, pair[0], fixed, reverse)),
-    )
+    )  # fmt: skip

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import functools
 import math
-import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -25,21 +24,20 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import charts_of, integrand, samplers_of
 from montecarlo_brdf.judge.claim import Kind, Reference, Slope, SlopeClaim
+from montecarlo_brdf.judge.decide import SHOWN
 from montecarlo_brdf.judge.finding import Report
-from montecarlo_brdf.judge.slope import SHOWN
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import DIRECTIONS, Sampler
 from montecarlo_brdf.sampling.points import SETS
-from montecarlo_brdf.verify.results import (
+from montecarlo_brdf.verify.question import (
     Progress,
     Question,
     Sets,
+    Settings,
     answered,
     chosen,
     parameter_sets,
-    reported,
 )
-from montecarlo_brdf.verify.settings import Settings
 
 NAME = "convergence"
 SAMPLES = 1 << 21  # per level, over all randomisations
@@ -63,18 +61,11 @@ TARGETS = (1e-3, 1e-6, 1e-9)
 
 
 def converge(
-    model: Model,
-    p: Sets = None,
-    theta_o_deg: float = 60.0,
-    *,
-    phi_o_deg: float = 0.0,
-    sampler: str | Sequence[str] = "all",
-    points: str | Sequence[str] = "all",
-    samples: int = SAMPLES,
-    seed: int = 0,
-    threads: int | None = None,
+    model: Model, p: Sets = None, theta_o_deg: float = 60.0, *, phi_o_deg: float = 0.0,
+    sampler: str | Sequence[str] = "all", points: str | Sequence[str] = "all",
+    samples: int = SAMPLES, seed: int = 0, threads: int | None = None,
     progress: Progress | None = None,
-) -> Report:
+) -> Report:  # fmt: skip
     """How fast the error of A falls for each sampler and point set, against the claimed rate.
 
     model: from `load`. p: a parameter set of `model.parameters`, a list of them, or None for the
@@ -92,17 +83,17 @@ def converge(
     samplers = chosen("sampler", sampler, (*charts_of(model), *samplers_of(model)))
     sets = chosen("point set", points, tuple(SETS))
     settings = Settings(sets[0], samples, seed, threads)
-    started = time.perf_counter()
     cases = [
         Case(model.of(one), one, [theta], phi_o_deg, seed=seed) for one in parameter_sets(model, p)
     ]
     claimed = functools.partial(claims, samplers=samplers, sets=sets)
     questions = [Question(NAME, case, claimed) for case in cases]
-    results = answered(questions, settings.plan, len(samplers) * len(sets), progress)
-    results = [replace(r, source={}) for r in results]  # a rate accuses no line of f
     told = {"theta_o_deg": theta, "phi_o_deg": phi_o_deg, "sampler": samplers}
     told |= {**settings.told(), "points": ", ".join(sets)}
-    return reported("converge", told, results, started)
+    count = len(samplers) * len(sets)
+    report = answered("converge", told, questions, settings.plan, count, progress)
+    # a rate accuses no line of f
+    return replace(report, results=[replace(r, source={}) for r in report.results])
 
 
 def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator[SlopeClaim]:
@@ -117,12 +108,9 @@ def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator
             rate = CLAIMS[_claimed_as(case, sampler, points)][0 if smooth else 1]
             curve = Curve(case, sampler, points, smooth, known.value, floor)
             yield SlopeClaim(
-                "slope",
-                {**case.where(theta_o_deg=theta), "sampler": sampler, "points": points},
-                Reference(rate, floor, known.kind, known.source),
-                SLACK,
-                curve.slope,
-            )
+                "slope", {**case.where(theta_o_deg=theta), "sampler": sampler, "points": points},
+                Reference(rate, floor, known.kind, known.source), SLACK, curve.slope,
+            )  # fmt: skip
 
 
 def reference_of(case: Case) -> Reference:
@@ -180,14 +168,10 @@ class Curve(NamedTuple):
         line = self.fitted(levels)
         fit = line or Line(math.nan, math.nan, math.nan, 1)
         found = Slope(
-            fit.slope,
-            fit.stderr,
-            fit.dof,
-            samples=levels[-1].samples if levels else 0,
-            levels=[_row(v) for v in levels],
-            note="",
+            fit.slope, fit.stderr, fit.dof, samples=levels[-1].samples if levels else 0,
+            levels=[_row(v) for v in levels], note="",
             finite=not any(math.isnan(v.error) for v in levels),
-        )
+        )  # fmt: skip
         return found._replace(note=self.note(found, levels, line))
 
     def levels(self, plan: Plan) -> list[Level]:
@@ -283,10 +267,7 @@ def _power(samples: float, extrapolated: bool) -> str:
 def _row(level: Level) -> dict[str, Any]:
     """A level as a finding shows it."""
     return {
-        "estimator": f"N = {level.samples}",
-        "samples": level.samples,
-        "value": level.error,
-        "stderr": level.error * level.uncertainty * math.log(2.0),
-        "verdict": "",
+        "estimator": f"N = {level.samples}", "samples": level.samples, "value": level.error,
+        "stderr": level.error * level.uncertainty * math.log(2.0), "verdict": "",
         "randomisations": list(level.each),
-    }
+    }  # fmt: skip

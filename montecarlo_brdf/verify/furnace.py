@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -17,16 +16,16 @@ from montecarlo_brdf.estimate.samplers import SAMPLERS, samplers_of
 from montecarlo_brdf.files import check_writable, write_text
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.verify.results import (
+from montecarlo_brdf.verify.question import (
+    SAMPLES,
     Progress,
     Question,
     Sets,
+    Settings,
     answered,
     chosen,
     parameter_sets,
-    reported,
 )
-from montecarlo_brdf.verify.settings import SAMPLES, Settings
 
 if TYPE_CHECKING:
     from montecarlo_brdf.estimate.partial_sums import PartialSums
@@ -35,23 +34,12 @@ ANGLES = (0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0)
 
 
 def furnace(
-    model: Model,
-    p: Sets = None,
-    theta_o_deg: Sequence[float] | float = ANGLES,
-    *,
-    phi_o_deg: float = 0.0,
-    sampler: str | Sequence[str] = "all",
-    points: str = "sobol",
-    samples: int = SAMPLES,
-    seed: int = 0,
-    threads: int | None = None,
-    tolerance: float | None = None,
-    target_error: float | None = None,
-    method: str | None = None,
-    progress: Progress | None = None,
-    curve: bool = False,
-    sums: PartialSums | None = None,
-) -> Report:
+    model: Model, p: Sets = None, theta_o_deg: Sequence[float] | float = ANGLES, *,
+    phi_o_deg: float = 0.0, sampler: str | Sequence[str] = "all", points: str = "sobol",
+    samples: int = SAMPLES, seed: int = 0, threads: int | None = None,
+    tolerance: float | None = None, target_error: float | None = None, method: str | None = None,
+    progress: Progress | None = None, curve: bool = False, sums: PartialSums | None = None,
+) -> Report:  # fmt: skip
     """White furnace test: A(wo) equals its reference and is at most 1, at every angle.
 
     model: from `load`. p: a parameter set of `model.parameters`, a list of them, or None for the
@@ -72,7 +60,6 @@ def furnace(
     thetas = [check_theta(a) for a in _listed(theta_o_deg)]
     samplers = _samplers(model, sampler)
     settings = Settings(points, samples, seed, threads, tolerance, target_error, method, sums)
-    started = time.perf_counter()
     only = None if sampler == "all" else samplers
     cases = [
         Case(model.of(one), one, thetas, phi_o_deg, only, tolerance, seed=seed)
@@ -80,13 +67,14 @@ def furnace(
     ]
     questions = [Question("furnace", case, check.claims) for case in cases]
     count = 2 * len(thetas) * len(cases[0].sets) if cases else 1
-    results = answered(questions, settings.plan, count, progress)
-    if curve:
-        drawn = [check.curves(c.model, c.p, max(thetas), phi_o_deg) for c in cases]
-        results = [replace(r, curves=c) for r, c in zip(results, drawn, strict=True)]
     told = {"theta_o_deg": thetas, "phi_o_deg": phi_o_deg, "sampler": samplers}
     told |= {"tolerance": tolerance, **settings.told()}
-    return reported("furnace", told, results, started)
+    report = answered("furnace", told, questions, settings.plan, count, progress)
+    if not curve:
+        return report
+    drawn = [check.curves(c.model, c.p, max(thetas), phi_o_deg) for c in cases]
+    results = [replace(r, curves=c) for r, c in zip(report.results, drawn, strict=True)]
+    return replace(report, results=results)
 
 
 def _listed(angles: Sequence[float] | float) -> Sequence[Any]:

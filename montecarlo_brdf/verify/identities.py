@@ -20,8 +20,7 @@ from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, MeanClaim, Re
 from montecarlo_brdf.judge.finding import Bound, Report, Result
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import NORMAL, Vec, from_degrees
-from montecarlo_brdf.verify.results import Progress, decided, reported
-from montecarlo_brdf.verify.settings import SAMPLES, Settings
+from montecarlo_brdf.verify.question import SAMPLES, Progress, Settings, decided, reported
 
 NAME = "identities"
 #: irradiance of the light 1 + 2 cos(theta): pi a + 2 pi b / 3 with a = 1, b = 2
@@ -29,14 +28,9 @@ IRRADIANCE = math.pi + 4.0 * math.pi / 3.0
 
 
 def identities(
-    *,
-    points: str = "sobol",
-    samples: int = SAMPLES,
-    seed: int = 0,
-    threads: int | None = None,
-    tolerance: float | None = None,
-    progress: Progress | None = None,
-) -> Report:
+    *, points: str = "sobol", samples: int = SAMPLES, seed: int = 0, threads: int | None = None,
+    tolerance: float | None = None, progress: Progress | None = None,
+) -> Report:  # fmt: skip
     """The identities of the hemisphere, each estimated and judged.
 
     points: "sobol", "independent", "stratified" or "lattice". samples: the most that an identity
@@ -117,48 +111,28 @@ def listed() -> Iterator[Identity]:
     yield Identity("area of the unit disk", cosine_power, Power(1.0), *cosine, math.pi, "its lift")
     for theta in (0.0, 45.0, 85.0):
         yield Identity(
-            "L_o of Lambert under L = 1 + 2 cos",
-            lit_lambert,
-            Albedo(),
-            Quantity.ALBEDO,
-            Sampler.UNIFORM,
-            0.8 / math.pi * IRRADIANCE,
-            "the same from every direction",
-            {"theta_o_deg": theta},
-            from_degrees(theta),
-        )
+            "L_o of Lambert under L = 1 + 2 cos", lit_lambert, Albedo(), Quantity.ALBEDO,
+            Sampler.UNIFORM, 0.8 / math.pi * IRRADIANCE, "the same from every direction",
+            {"theta_o_deg": theta}, from_degrees(theta),
+        )  # fmt: skip
     yield Identity(
-        "Phi_out/Phi_in under L = 1 + 2 cos",
-        lit_share,
-        Albedo(),
-        Quantity.BIHEMISPHERICAL,
-        Sampler.UNIFORM,
-        0.8,
-        "the albedo under any light",
-    )
+        "Phi_out/Phi_in under L = 1 + 2 cos", lit_share, Albedo(), Quantity.BIHEMISPHERICAL,
+        Sampler.UNIFORM, 0.8, "the albedo under any light",
+    )  # fmt: skip
     yield Identity(
-        "A of f = C_d = 1/pi",
-        lambert,
-        Albedo(1.0),
-        Quantity.ALBEDO,
-        Sampler.UNIFORM,
-        1.0,
-        "the largest constant BRDF: C_d <= 1/pi",
-        bound=Bound.AT_MOST,
-    )
+        "A of f = C_d = 1/pi", lambert, Albedo(1.0), Quantity.ALBEDO, Sampler.UNIFORM, 1.0,
+        "the largest constant BRDF: C_d <= 1/pi", bound=Bound.AT_MOST,
+    )  # fmt: skip
 
 
 def claims(tolerance: float) -> Iterator[MeanClaim]:
     """One claim per identity; tolerance: relative."""
     for identity in listed():
         yield MeanClaim(
-            identity.quantity,
-            identity.where,
-            identity.bound,
+            identity.quantity, identity.where, identity.bound,
             Reference(identity.exact, 0.0, Kind.CLOSED_FORM, identity.why),
-            tolerance * identity.exact,
-            functools.partial(_measure, identity),
-        )
+            tolerance * identity.exact, functools.partial(_measure, identity),
+        )  # fmt: skip
 
 
 def _measure(identity: Identity, plan: Plan) -> list[Measurement]:

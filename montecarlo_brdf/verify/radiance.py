@@ -13,32 +13,32 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Property
-from montecarlo_brdf.report.sentences import place
+from montecarlo_brdf.report.text import place
 from montecarlo_brdf.scene import claims as scene_claims
 from montecarlo_brdf.scene import plan as planning
 from montecarlo_brdf.scene.claims import reversed_scene
 from montecarlo_brdf.scene.plan import ScenePlan
 from montecarlo_brdf.scene.scene import Scene, as_lobes
 from montecarlo_brdf.scene.standard import Standard, mend
-from montecarlo_brdf.verify.results import Progress, decided, probed, reported
-from montecarlo_brdf.verify.settings import SAMPLES, Settings, exactly
+from montecarlo_brdf.verify.question import (
+    SAMPLES,
+    Progress,
+    Settings,
+    decided,
+    exactly,
+    probed,
+    reported,
+)
 
 WEIGHT_ROUNDING = 1e-12  # weights like 0.1 + 0.2 + 0.7 add up to 1 only within rounding
 WEIGHTS = "sum of weights <= 1"
 
 
 def radiance(
-    scene: Scene,
-    *,
-    skip: bool = True,
-    energy: bool = True,
-    points: str = "sobol",
-    samples: int = SAMPLES,
-    seed: int = 0,
-    threads: int | None = None,
-    tolerance: float | None = None,
-    progress: Progress | None = None,
-) -> Report:
+    scene: Scene, *, skip: bool = True, energy: bool = True, points: str = "sobol",
+    samples: int = SAMPLES, seed: int = 0, threads: int | None = None,
+    tolerance: float | None = None, progress: Progress | None = None,
+) -> Report:  # fmt: skip
     """Reflected radiance L_o of a scene at all its views, per channel, with verdicts.
 
     scene: from `read_scene` or `scene_of`. skip: leave out what the scene does not need (never
@@ -58,39 +58,26 @@ def radiance(
             probed(lobe.model, p)
     plan = planning.make(scene, skip)
     findings = decided(
-        _claims(scene, plan, tolerance, skip, energy),
-        settings.plan,
-        _disclaims(scene),
-        functools.partial(_repeat, scene, settings, skip),
-        count=_count(scene, energy),
+        _claims(scene, plan, tolerance, skip, energy), settings.plan, _disclaims(scene),
+        functools.partial(_repeat, scene, settings, skip), count=_count(scene, energy),
         progress=progress,
-    )
-    told = {
-        "theta_o_deg": list(scene.view.theta_o_deg),
-        "phi_o_deg": list(scene.view.phi_o_deg),
-        "skip": skip,
-        "tolerance": tolerance,
-        "plan": explained(plan, settings.plan),
-        **settings.told(),
-    }
+    )  # fmt: skip
+    view = {"theta_o_deg": [*scene.view.theta_o_deg], "phi_o_deg": [*scene.view.phi_o_deg]}
+    told = {**view, "skip": skip, "tolerance": tolerance, "plan": explained(plan, settings.plan)}
     result = Result(scene.name, {}, "radiance", _with_reading(scene, findings))
-    return reported("radiance", told, [result], started)
+    return reported("radiance", {**told, **settings.told()}, [result], started)
 
 
 def _claims(
     scene: Scene, plan: ScenePlan, tolerance: float | None, skip: bool, energy: bool
 ) -> Iterator[Claim]:
     for k, total in enumerate(scene_claims.weight_sums(scene)):
-        exact = Exact(total, hint=None if total <= 1.0 else "reduce a weight")
+        hint = None if total <= 1.0 else "reduce a weight"
         yield ExactClaim(
-            WEIGHTS,
-            {"channel": k} if scene.channels > 1 else {},
-            Bound.AT_MOST,
-            Reference(1.0, 0.0, Kind.BOUND, "lobes share the light that arrives"),
-            WEIGHT_ROUNDING,
-            functools.partial(_same, exact),
-            property=None,
-        )
+            WEIGHTS, {"channel": k} if scene.channels > 1 else {}, Bound.AT_MOST,
+            Reference(1.0, 0.0, Kind.BOUND, "lobes share the light that arrives"), WEIGHT_ROUNDING,
+            functools.partial(Exact, total, hint=hint), property=None,
+        )  # fmt: skip
     yield from scene_claims.claims(scene, plan, tolerance)
     if energy or scene.band:
         furnace = planning.make(scene.under_constant_light(1.0), skip)
@@ -100,10 +87,6 @@ def _claims(
                 plan = planning.make(reverse, skip)
                 yield from scene_claims.energy_claims(scene, plan, tolerance, reverse=True)
         yield from scene_claims.band_claims(scene, furnace, tolerance)
-
-
-def _same(value: Exact) -> Exact:
-    return value
 
 
 def _count(scene: Scene, energy: bool) -> int:
@@ -149,7 +132,6 @@ def explained(plan: ScenePlan, sampling: Plan) -> list[dict[str, Any]]:
     for item in plan.items:
         saved = 0 if item.evaluated else item.estimates * views * sampling.samples
         decision = "evaluated" if item.evaluated else "skipped"
-        rows.append(
-            {"what": item.what, "decision": decision, "why": item.reason, "samples_saved": saved}
-        )
+        row = {"what": item.what, "decision": decision, "why": item.reason}
+        rows.append({**row, "samples_saved": saved})
     return rows

@@ -18,18 +18,19 @@ from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.verify.results import (
+from montecarlo_brdf.verify.question import (
     Progress,
     Question,
     Sets,
+    Settings,
     chosen,
+    exactly,
     judged,
     parameter_sets,
     probed,
     reported,
     shown_parameters,
 )
-from montecarlo_brdf.verify.settings import Settings, exactly
 from montecarlo_brdf.verify.supervision import Deadline, supervised
 
 ANGLES = (0.0, 45.0, 80.0)
@@ -39,23 +40,12 @@ MOST = 4  # tasks at once: what they do between kernels shares one interpreter
 
 
 def run(
-    model: Model,
-    p: Sets = None,
-    *,
-    names: Sequence[str] | None = None,
-    theta_o_deg: Sequence[float] = ANGLES,
-    phi_o_deg: float = 0.0,
-    fixed: Iterable[str] = (),
-    against: Model | None = None,
-    points: str = "sobol",
-    samples: int = SAMPLES,
-    seed: int = 0,
-    threads: int | None = None,
-    tolerance: float | None = None,
-    effort: float = 1.0,
-    deadline: Deadline | None = None,
-    progress: Progress | None = None,
-) -> Report:
+    model: Model, p: Sets = None, *, names: Sequence[str] | None = None,
+    theta_o_deg: Sequence[float] = ANGLES, phi_o_deg: float = 0.0, fixed: Iterable[str] = (),
+    against: Model | None = None, points: str = "sobol", samples: int = SAMPLES, seed: int = 0,
+    threads: int | None = None, tolerance: float | None = None, effort: float = 1.0,
+    deadline: Deadline | None = None, progress: Progress | None = None,
+) -> Report:  # fmt: skip
     """Every check of a model, or those named, for one or several parameter sets.
 
     model: from `load`. p: a parameter set of `model.parameters`, a list of them, or None for the
@@ -142,11 +132,9 @@ Told = Callable[[], None]
 
 
 def perform(
-    groups: Sequence[Sequence[Task]],
-    settings: Settings,
-    deadline: Deadline,
+    groups: Sequence[Sequence[Task]], settings: Settings, deadline: Deadline,
     progress: Progress | None = None,
-) -> None:
+) -> None:  # fmt: skip
     """Do the tasks of one case after another until the deadline; those of a case side by side."""
 
     def tell() -> None:

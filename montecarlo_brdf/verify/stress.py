@@ -15,7 +15,7 @@ from montecarlo_brdf.stability import designed
 from montecarlo_brdf.stability.arithmetic import ladder, precision
 from montecarlo_brdf.stability.claims import claims
 from montecarlo_brdf.stability.stress import Loss, loss
-from montecarlo_brdf.verify.results import Progress, part_of, reported
+from montecarlo_brdf.verify.question import Progress, part_of, reported
 
 #: Precisions that a model is held to unless it is asked for others by name.
 PROMISED = ("float32", "float64")
@@ -23,14 +23,10 @@ UNASKED = "measured, not promised: --precision {} makes it a claim"
 
 
 def stress(
-    models: Model | Sequence[Model],
-    p: Sequence[NamedTuple] | None = None,
-    *,
-    precisions: Sequence[str] | None = None,
-    max_error: float | None = None,
-    quick: bool = False,
+    models: Model | Sequence[Model], p: Sequence[NamedTuple] | None = None, *,
+    precisions: Sequence[str] | None = None, max_error: float | None = None, quick: bool = False,
     progress: Progress | None = None,
-) -> Report:
+) -> Report:  # fmt: skip
     """Numerical stability of one or several models.
 
     models: one, or several, from `load`. p: a list of parameter sets, or None for a designed one
@@ -66,17 +62,12 @@ def _numbers(one: Loss) -> dict[str, Any]:
     """What a precision lost, for the table; NaN where no value of the parameter is safe."""
     parameter, safe = one.safe or (None, None)
     return {
-        "name": one.precision,
-        "eps": one.eps,
-        "points": one.points,
-        "worst": one.worst.own if one.worst else 0.0,
-        "allowed": one.tolerance,
-        "with_inputs": one.worst_total.total if one.worst_total else 0.0,
-        **one.counts,
-        "parameter": parameter,
-        "safe": safe,
+        "name": one.precision, "eps": one.eps, "points": one.points,
+        "worst": one.worst.own if one.worst else 0.0, "allowed": one.tolerance,
+        "with_inputs": one.worst_total.total if one.worst_total else 0.0, **one.counts,
+        "parameter": parameter, "safe": safe,
         "length": one.draws.length if one.draws else None,
-    }
+    }  # fmt: skip
 
 
 def result(model: Model, found: Sequence[Loss], promised: Sequence[str]) -> Result:

@@ -34,13 +34,18 @@ class Left(BaseException):
 
 
 class _Work:
-    """A function in a thread, with what became of it."""
+    """A function in a thread that has begun, with what became of it."""
 
     def __init__(self, function: Callable[[], object]) -> None:
         self._function = function
         self.error: BaseException | None = None
         self.ended = threading.Event()
         self.thread = threading.Thread(target=self._run, daemon=True)
+        before = threading.stack_size(STACK)
+        try:
+            self.thread.start()
+        finally:
+            threading.stack_size(before)
 
     def _run(self) -> None:
         try:
@@ -77,7 +82,7 @@ def supervised(
 
     Raises what the function raises in any thread. KeyboardInterrupt leaves the function at once.
     """
-    works = [_started(function) for _ in range(threads)]
+    works = [_Work(function) for _ in range(threads)]
     late: float | None = None
     try:
         while _running(works) and not _errors(works):
@@ -110,14 +115,3 @@ def _leave(works: list[_Work]) -> None:
     until = time.monotonic() + UNWINDING
     for work in works:
         work.ended.wait(max(0.0, until - time.monotonic()))
-
-
-def _started(function: Callable[[], object]) -> _Work:
-    size = threading.stack_size()
-    threading.stack_size(STACK)
-    try:
-        work = _Work(function)
-        work.thread.start()
-    finally:
-        threading.stack_size(size)
-    return work

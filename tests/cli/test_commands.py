@@ -17,7 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from montecarlo_brdf import __version__, load
-from montecarlo_brdf.cli._values import Whole, numbers, parameter_sets
+from montecarlo_brdf.cli._options import WHOLE, numbers, parameter_sets
 from montecarlo_brdf.errors import UserError
 
 Command = Callable[..., Outcome]
@@ -201,7 +201,7 @@ def test_lists_and_ranges(text: str, expected: list[float]) -> None:
     [("65536", 65536), ("2^16", 65536), ("1e6", 10**6), ("1_000", 1000), ("-3", -3), ("+5", 5)],
 )
 def test_whole_numbers(text: str, expected: int) -> None:
-    assert Whole().convert(text, None, None) == expected
+    assert WHOLE.convert(text, None, None) == expected
 
 
 @given(st.text(max_size=12))
@@ -214,7 +214,7 @@ def test_any_text_is_a_number_or_a_sentence(text: str) -> None:
     except UserError as error:
         assert "x" in str(error)
     try:
-        assert isinstance(Whole().convert(text, None, None), int)
+        assert isinstance(WHOLE.convert(text, None, None), int)
     except click.BadParameter as error:
         assert "not a whole number" in error.message
 

@@ -15,7 +15,7 @@ import fuzzing
 import pytest
 from hypothesis import HealthCheck, given, settings
 
-from montecarlo_brdf.cli import _project
+from montecarlo_brdf.cli import _requests
 from montecarlo_brdf.cli import execute as run
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.scene.read import read_scene
@@ -67,7 +67,7 @@ def test_settings(tmp_path: Path, content: bytes) -> None:
     path = tmp_path / "brdf-check.toml"
     path.write_bytes(content)
     with contextlib.suppress(UserError):
-        _project.read(path)
+        _requests.read(path)
 
 
 DEEP = "[surface]\nmodel = 'lambert'\nalbedo = " + "[" * 3000 + "]" * 3000

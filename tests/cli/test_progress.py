@@ -9,13 +9,13 @@ from types import SimpleNamespace
 
 import pytest
 
-from montecarlo_brdf.cli import _progress
+from montecarlo_brdf.cli import _terminal
 
 
 def test_checks_side_by_side_share_a_progress_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     """The second of two that came at once found a bar without a task."""
-    monkeypatch.setattr(_progress, "PATIENCE", 0.0)
-    monkeypatch.setattr(_progress, "INTERVAL", 0.0)
+    monkeypatch.setattr(_terminal, "PATIENCE", 0.0)
+    monkeypatch.setattr(_terminal, "INTERVAL", 0.0)
     monkeypatch.setenv("TERM", "xterm")
     written: list[str] = []
 
@@ -28,21 +28,21 @@ def test_checks_side_by_side_share_a_progress_bar(monkeypatch: pytest.MonkeyPatc
 
     terminal = SimpleNamespace(isatty=lambda: True, write=write, flush=lambda: 0)
     monkeypatch.setattr(sys, "stderr", terminal)
-    with _progress.progress("test") as update, concurrent.futures.ThreadPoolExecutor(4) as pool:
+    with _terminal.progress("test") as update, concurrent.futures.ThreadPoolExecutor(4) as pool:
         for done in [pool.submit(update, 0.1 * k) for k in range(8)]:
             done.result()
-    assert len(written) > 1 and written[-1] == _progress.ERASE
-    assert all(text.startswith(_progress.ERASE) for text in written)
+    assert len(written) > 1 and written[-1] == _terminal.ERASE
+    assert all(text.startswith(_terminal.ERASE) for text in written)
 
 
 def test_a_progress_bar_is_no_wider_than_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert " 25% 9 s left" in _progress.line("furnace", 0.25, 3.0)
+    assert " 25% 9 s left" in _terminal.line("furnace", 0.25, 3.0)
     monkeypatch.setenv("COLUMNS", "20")
-    assert len(_progress.line("furnace", 0.25, 3.0)) < 20
+    assert len(_terminal.line("furnace", 0.25, 3.0)) < 20
 
 
 def test_no_progress_without_stderr(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(_progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(_terminal, "PATIENCE", 0.0)
     monkeypatch.setattr(sys, "stderr", None)
-    with _progress.progress("test") as update:
+    with _terminal.progress("test") as update:
         update(0.5)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from conftest import Outcome
 
-from montecarlo_brdf.cli import _project
+from montecarlo_brdf.cli import _requests
 
 GOOD = """\
 checks = ["reciprocity"]
@@ -43,7 +43,7 @@ def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], 
 
 
 def test_requests(project: Callable[[str], Path]) -> None:
-    requests = _project.read(project(GOOD)).requests
+    requests = _requests.read(project(GOOD)).requests
     assert [(r.model.name, r.terms.names, r.terms.tolerance) for r in requests] == [
         ("../mine.py", ("reciprocity",), None),
         ("lambert", ("reciprocity",), None),
@@ -56,7 +56,7 @@ def test_requests(project: Callable[[str], Path]) -> None:
         "lambert(albedo=0.2)",
         "lambert(albedo=0.9/0.5)",
     ]
-    again = _project.read(project(GOOD), {"seed": 3, "tolerance": 0.5}).requests
+    again = _requests.read(project(GOOD), {"seed": 3, "tolerance": 0.5}).requests
     assert again[1].terms.tolerance == 0.5
 
 

@@ -15,9 +15,15 @@ from montecarlo_brdf.judge import mean as judging
 from montecarlo_brdf.judge.claim import Kind, MeanClaim, Reference
 from montecarlo_brdf.judge.decide import LEVEL, decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result, worst
-from montecarlo_brdf.judge.looks import FIRST_LOOK, GROWTH, looks
-from montecarlo_brdf.judge.mean import CONFIRMING_REPLICATES
-from montecarlo_brdf.judge.opinions import LUCK, Opinion, judged
+from montecarlo_brdf.judge.mean import (
+    CONFIRMING_REPLICATES,
+    FIRST_LOOK,
+    GROWTH,
+    LUCK,
+    Opinion,
+    judged,
+    looks,
+)
 from montecarlo_brdf.statistics import Estimate
 
 PLAN = Plan(samples=1 << 20)

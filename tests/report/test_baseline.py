@@ -9,7 +9,7 @@ import pytest
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report import baseline
-from montecarlo_brdf.report.read import read_report
+from montecarlo_brdf.report.json import read_report
 
 
 def report(*verdicts: str, theta: float = 0.0, command: str = "run") -> Report:

@@ -50,7 +50,7 @@ def report(**settings: object) -> Report:
     return Report("run", {"seed": 0, "points": "sobol", "samples": 1024, **settings}, rows)
 
 
-@pytest.mark.parametrize("name", formats.names())
+@pytest.mark.parametrize("name", formats.SUFFIXES)
 def test_formats_are_pure(name: str) -> None:
     assert formats.render(report(), name) == formats.render(report(), name) != ""
     assert formats.render(Report("run", {}, []), name)

@@ -13,7 +13,7 @@ import pytest
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report import text
-from montecarlo_brdf.report.read import read_report
+from montecarlo_brdf.report.json import read_report
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="needs a pseudo-terminal")
 

@@ -42,6 +42,15 @@ def test_comparison_report_and_picture(cli: Cli, tmp_path: Path) -> None:
     assert (tmp_path / "again.png").read_bytes() == picture.read_bytes()
 
 
+def test_text_on_stdout_and_exports_in_files(cli: Cli, tmp_path: Path) -> None:
+    exports = [tmp_path / "d.json", tmp_path / "d.csv"]
+    options = [word for path in exports for word in ("--export", path)]
+    done = cli("stress", "--model", "lambert", "--quick", "--precision", "float32", *options)
+    assert done.code == 0 and "PASS" in done.out
+    assert json.loads(exports[0].read_text())["results"][0]["verdict"] == "pass"
+    assert exports[1].read_text().startswith("model,")
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -23,7 +23,7 @@ from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.estimate import work
 from montecarlo_brdf.estimate.estimators import directional_albedo
 from montecarlo_brdf.estimate.moments import BLOCK
-from montecarlo_brdf.verify import results
+from montecarlo_brdf.verify import question
 from montecarlo_brdf.verify.supervision import Deadline, supervised
 
 NEVER = "def f(wo, wi, p):\n    while True:\n        pass\n"
@@ -113,7 +113,7 @@ def test_the_report_tells_that_the_model_did_not_return(
 def test_without_a_limit_a_model_gets_some_seconds(
     cli: Callable[..., Outcome], user_file: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(results, "PATIENCE", 0.3)
+    monkeypatch.setattr(question, "PATIENCE", 0.3)
     path = user_file(NEVER)
     done = cli("run", "--model", path, "--format", "json")
     assert done.code == 3

@@ -15,12 +15,8 @@ if TYPE_CHECKING:
 
 KINDS = ("png", "svg", "pdf")
 #: command -> the module beside this one whose `figure(report)` draws its reports
-FIGURES = {
-    "converge": "convergence",
-    "furnace": "albedo",
-    "radiance": "radiance",
-    "stress": "stability",
-}
+FIGURES = {"converge": "convergence", "furnace": "albedo"}
+FIGURES |= {"radiance": "radiance", "stress": "stability"}
 
 
 def kind_of(path: Path) -> str:

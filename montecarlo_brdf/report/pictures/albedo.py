@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result
 from montecarlo_brdf.report.pictures import style
@@ -25,10 +25,7 @@ class Series(NamedTuple):
 
 def figure(report: Report) -> Figure:
     """Albedo against angle with its error band and reference; below it the error on a log scale."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
-    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    figure, top, bottom = style.panels(7.0)
     total = series(report)
     for one, (colour, marker) in zip(total, style.SERIES, strict=False):
         _albedo(top, one, colour, marker)
@@ -40,7 +37,6 @@ def figure(report: Report) -> Figure:
     if 0.0 < bottom.dataLim.y1 < math.inf:  # else nothing but NaN is drawn
         bottom.set_yscale("log")
     bottom.set_ylabel("|A - reference|")
-    bottom.set_xlabel(style.THETA_O)
     bottom.set_xlim(-2.0, 92.0)
     style.grid(top, bottom)
     _explain(figure, top, bottom)
@@ -60,9 +56,7 @@ def _explain(figure: Figure, *panels: Axes) -> None:
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
-    figure.legend(
-        list(named.values()), list(named), loc="outside lower center", ncols=3, fontsize=8
-    )
+    figure.legend([*named.values()], [*named], loc="outside lower center", ncols=3, fontsize=8)
 
 
 def series(report: Report) -> list[Series]:
@@ -84,19 +78,15 @@ def _expected(findings: list[Finding]) -> list[tuple[float, float]]:
 
 
 def _label(result: Result, channel: int | None) -> str:
-    colours = (list, tuple)
-    return style.assigned(
-        {
-            k: v[channel] if isinstance(v, colours) and channel is not None else v
-            for k, v in result.params.items()
-        }
-    )
+    def of_channel(value: Any) -> Any:
+        return value[channel] if channel is not None and isinstance(value, (list, tuple)) else value
+
+    return style.assigned({k: of_channel(v) for k, v in result.params.items()})
 
 
 def _albedo(axes: Axes, one: Series, colour: str, marker: str) -> None:
     theta = style.angles(one.findings)
-    values = [f.value for f in one.findings]
-    bars = [style.bar(f) for f in one.findings]
+    values, bars = [f.value for f in one.findings], [style.bar(f) for f in one.findings]
     low, high = ([v + s * b for v, b in zip(values, bars, strict=True)] for s in (-1.0, 1.0))
     axes.fill_between(theta, low, high, color=colour, alpha=0.2, linewidth=0)
     axes.errorbar(theta, values, bars, fmt=marker, color=colour, markersize=4, capsize=2,

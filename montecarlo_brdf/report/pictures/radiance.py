@@ -18,10 +18,7 @@ KEY = "L_o +- 3 stderr,\nline: truth"
 
 def figure(report: Report) -> Figure:
     """L_o above, its error on a log scale below."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(8.0, 6.0), layout="constrained")
-    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    figure, top, bottom = style.panels(8.0)
     result = report.results[0]
     total = series(result.findings)
     shown = list(total.items())[:MOST_SERIES]
@@ -34,7 +31,6 @@ def figure(report: Report) -> Figure:
     top.set_ylim(0.0, _headroom([f.value for _, rows in shown for f in rows]))
     bottom.set_yscale("log")
     bottom.set_ylabel("|L_o - truth|")
-    bottom.set_xlabel(style.THETA_O)
     bottom.set_title(f"points: error (0 is drawn at {style.SMALLEST:g}), lines: stderr", fontsize=9)
     style.grid(top, bottom)
     # beside the panel: inside it a legend hides points, and below it needs none

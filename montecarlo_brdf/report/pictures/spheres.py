@@ -63,19 +63,15 @@ def kind_of(path: Path) -> str:
         try:
             _openexr()
         except ImportError as error:
-            raise OutputError(
-                f"cannot write {path}: .exr needs OpenEXR, pip install 'montecarlo-brdf[scene]'"
-            ) from error
+            needs = ".exr needs OpenEXR, pip install 'montecarlo-brdf[scene]'"
+            raise OutputError(f"cannot write {path}: {needs}") from error
     return kind
 
 
 def drawn(
-    kind: str,
-    spheres: Sequence[Sphere],
-    labels: Sequence[str],
-    light: float | None,
+    kind: str, spheres: Sequence[Sphere], labels: Sequence[str], light: float | None,
     columns: int | None = None,
-) -> bytes:
+) -> bytes:  # fmt: skip
     """A file of spheres, `columns` in a row: a picture, or their linear values side by side.
 
     light: radiance of the furnace they are in, or None.
@@ -99,9 +95,8 @@ def encoded(values: Values) -> Values:
     import numpy as np
 
     if values.shape[2] not in (1, 3):
-        raise UserError(
-            f"a picture needs 1 or 3 channels, not {values.shape[2]}: write numbers to a .npy file"
-        )
+        few = f"a picture needs 1 or 3 channels, not {values.shape[2]}"
+        raise UserError(f"{few}: write numbers to a .npy file")
     v = np.clip(values, 0.0, 1.0)
     v = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1.0 / 2.4) - 0.055)
     return np.repeat(v, 3 // v.shape[2], axis=2)
@@ -134,20 +129,17 @@ def _png(
 
     content = io.BytesIO()
     if light is None and len(spheres) == len(spheres[0]) == 1:
-        pixels = _pixels(spheres[0][0]) + 0.5
+        pixels = 255.0 * encoded(spheres[0][0].values) + 0.5
         Image.fromarray(pixels.astype("uint8")).save(content, "png")
-    else:
-        rows = []
-        for some, titles in zip(spheres, labels, strict=True):
-            rows.append([Panel(t, _pixels(s)) for s, t in zip(some, titles, strict=True)])
-            if light is not None:
-                rows.append([_difference(s, light) for s in some])
-        _page(rows, light).save(content, "png")
+        return content.getvalue()
+    rows = []
+    for some, titles in zip(spheres, labels, strict=True):
+        shown = [255.0 * encoded(s.values) for s in some]
+        rows.append([Panel(t, pixels) for t, pixels in zip(titles, shown, strict=True)])
+        if light is not None:
+            rows.append([_difference(s, light) for s in some])
+    _page(rows, light).save(content, "png")
     return content.getvalue()
-
-
-def _pixels(sphere: Sphere) -> Values:
-    return 255.0 * encoded(sphere.values)
 
 
 def _difference(sphere: Sphere, light: float) -> Panel:

@@ -42,9 +42,8 @@ def figure(report: Report) -> Figure:
     if shown:
         figure.colorbar(drawn[0], ax=panels.tolist(), label="worst relative error")
     else:
-        panels[0].set_title(
-            "no parameter of this model sharpens its lobe: nothing to map", fontsize=9
-        )
+        why = "no parameter of this model sharpens its lobe: nothing to map"
+        panels[0].set_title(why, fontsize=9)
     return figure
 
 

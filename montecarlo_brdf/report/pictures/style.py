@@ -10,29 +10,35 @@ from montecarlo_brdf.judge.finding import Finding
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 # Okabe and Ito's colours: told apart by everyone
 BLUE, VERMILION, GREEN, PURPLE = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
 ORANGE, SKY, BLACK = "#E69F00", "#56B4E9", "#000000"
 GREY = "0.4"
 
-
 COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 #: a colour and a marker per parameter set
 SERIES = tuple(zip(COLOURS, "os^DvPX", strict=True))
 #: one per point set
-POINTS = {
-    "independent": (BLACK, "o"),
-    "stratified": (ORANGE, "s"),
-    "sobol": (BLUE, "^"),
-    "lattice": (VERMILION, "D"),
-}
+POINTS = {"independent": (BLACK, "o"), "stratified": (ORANGE, "s")}
+POINTS |= {"sobol": (BLUE, "^"), "lattice": (VERMILION, "D")}
 #: a colour per channel: red, green, blue, and others
 CHANNELS = (VERMILION, GREEN, BLUE, PURPLE, ORANGE, SKY, BLACK)
 DASHES = (0, (4, 3))
 DOTS = (0, (1, 2))
 SMALLEST = 1e-17  # an exact value has no place on a log axis
 THETA_O = "angle of the viewer theta_o (degrees)"
+
+
+def panels(width: float) -> tuple[Figure, Axes, Axes]:
+    """Values above, their errors below, against the same angles."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, 6.0), layout="constrained")
+    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    bottom.set_xlabel(THETA_O)
+    return figure, top, bottom
 
 
 def grid(*panels: Axes) -> None:
@@ -60,6 +66,5 @@ def angles(findings: list[Finding]) -> list[float]:
 
 def assigned(params: Mapping[str, Any]) -> str:
     """'alpha=0.3, k=direct'."""
-    return ", ".join(
-        f"{k}={v:.4g}" if isinstance(v, float) else f"{k}={v}" for k, v in params.items()
-    )
+    shown = {k: f"{v:.4g}" if isinstance(v, float) else v for k, v in params.items()}
+    return ", ".join(f"{k}={v}" for k, v in shown.items())
