@@ -1,4 +1,5 @@
-"""Models by name (a file in montecarlo_brdf/models) or by path (a user's own file)."""
+"""Models by name (a file in montecarlo_brdf/models) or by path (a user's own file): from the names
+that a file defines to a Model, what they must be, and choices bound."""
 
 from __future__ import annotations
 
@@ -8,15 +9,15 @@ import os
 import sys
 import traceback
 import types
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from montecarlo_brdf import mixture
 from montecarlo_brdf.errors import ModelError, UserError, unknown
-from montecarlo_brdf.model import Model
-from montecarlo_brdf.model_file import build, members
+from montecarlo_brdf.model import Limit, Lobe, Model, NoParams, ParameterSet, parameter_type
 
+Namespace = Mapping[str, Any]
 FOLDER = Path(__file__).parent / "models"
 
 
@@ -50,7 +51,7 @@ def load(spec: str, **picks: str) -> Model:
         namespace = vars(importlib.import_module(f"montecarlo_brdf.models.{spec}"))
     else:
         raise UserError(unknown("model", spec, names()) + ", or give the path of a .py file")
-    model = build(spec, namespace, {}, built_in=spec in names())
+    model = build(spec, namespace, built_in=spec in names())
     return model.variant(**picks) if picks else model
 
 
@@ -95,7 +96,7 @@ def _compiled(path: Path) -> types.CodeType:
         raise SyntaxError(str(error)) from error
 
 
-def _member(spec: str, namespace: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+def _member(spec: str, namespace: Namespace, name: str) -> Namespace:
     """The model `name` within a file: a class with f, or a function with name_sample, name_pdf."""
     value = namespace.get(name)
     if isinstance(value, type):
@@ -115,3 +116,199 @@ def raised(error: BaseException, path: Path | str) -> str:
     where = f" (line {lines[-1]})" if lines else ""
     message = " ".join(str(error).split())
     return f"raised {type(error).__name__}{where}{': ' + message if message else ''}"
+
+
+class Rule(NamedTuple):
+    """What a member of a model file must be, as a test and in words, and what a Model keeps."""
+
+    fits: Callable[[Any], bool]
+    must: str
+    make: Callable[[Any], Any] = lambda value: value
+
+
+class Parts(NamedTuple):
+    """An option of a choice: what it binds, brings, and adds to domain and disclaims."""
+
+    functions: Mapping[str, Callable[..., Any]] = {}
+    params: Mapping[str, float] = {}
+    domain: Mapping[str, tuple[float, float]] = {}
+    disclaims: Mapping[str, str] = {}
+
+
+def _is(*kinds: type) -> Callable[[Any], bool]:
+    return lambda value: isinstance(value, kinds)
+
+
+def _is_pair(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) and len(value) == 2
+
+
+def _is_parameters(value: Any) -> bool:
+    defaults = getattr(value, "_field_defaults", None)
+    named = isinstance(value, type) and issubclass(value, tuple) and defaults is not None
+    return named and all(isinstance(v, (int, float)) for v in (defaults or {}).values())
+
+
+DICTIONARY = Rule(_is(Mapping), "a dictionary, not {!r}", dict)
+LIST = Rule(_is(list, tuple), "a list, not {!r}", tuple)
+NAME = Rule(_is(str), "a name, not {!r}")
+#: The functions of the contract and their arguments.
+FUNCTIONS = {"f": "(wo, wi, p)", "sample": "(wo, u, p)", "pdf": "(wo, wi, p)", "prepare": "(p)"}
+#: All other members.
+MEMBERS = {
+    "albedo": Rule(callable, "a function (cos_theta_o, p), not {!r}"),
+    "Params": Rule(_is_parameters, "a NamedTuple of numbers"),
+    "domain": DICTIONARY,
+    "choices": DICTIONARY,
+    "disclaims": DICTIONARY,
+    "verified": LIST,
+    "kinks": LIST,
+    "same_as": NAME,
+    "scales_with": NAME,
+    "isotropic": Rule(lambda value: True, "", bool),
+    "lossless": Rule(
+        _is(bool, list, tuple),
+        "True or a list of parameter sets, not {!r}",
+        lambda value: value if isinstance(value, bool) else tuple(value),
+    ),
+    "limits": Rule(
+        lambda value: isinstance(value, (list, tuple)) and all(map(_is_pair, value)),
+        "a list of (changed parameters, model), not {!r}",
+        lambda value: tuple(Limit(*pair) for pair in value),
+    ),
+    "lobe": Rule(
+        lambda value: _is_pair(value) and callable(value[1]),
+        "(kind, function of p), not {!r}",
+        lambda value: Lobe(*value),
+    ),
+}
+
+
+def build(
+    name: str, namespace: Namespace, picks: Mapping[str, str] = {}, built_in: bool = False
+) -> Model:
+    """A Model from the names defined in a model file, with one option picked per choice.
+
+    Raises ModelError where a name does not stand for what it must.
+    """
+    given = _members_of(name, namespace)
+    choices = given.get("choices", {})
+    picks = {c: picks.get(c, next(iter(options))) for c, options in choices.items()}
+    options = [_parts(c, choices[c][pick]) for c, pick in picks.items()]
+    bound = _rebound(namespace, {k: v for o in options for k, v in o.functions.items()})
+    given |= {k: bound[k] for k in (*FUNCTIONS, "albedo") if k in given}
+    given["Params"] = params = _params_of(given.get("Params", NoParams), options, picks)
+    for member in ("domain", "disclaims"):
+        added = [getattr(option, member) for option in options]
+        given[member] = {k: v for each in (given.get(member, {}), *added) for k, v in each.items()}
+    _check_domain(name, given["domain"])
+    if not choices:  # of which each brings parameters of its own
+        _known(f"parameter of model {name}", "domain", given["domain"], params._fields)
+    given["domain"] = {k: v for k, v in given["domain"].items() if k in params._fields}
+    return Model(
+        name=name,
+        doc=str(namespace.get("__doc__") or ""),
+        built_in=built_in,
+        picks=picks,
+        namespace=namespace,
+        rebuild=lambda new: build(name, namespace, new, built_in),
+        **given,
+    )
+
+
+def _is_helper(member: str, value: object) -> bool:
+    """Whether a file's own function happens to be called as a member that is none."""
+    return isinstance(value, types.FunctionType) and member in MEMBERS and member != "albedo"
+
+
+def _members_of(name: str, namespace: Namespace) -> dict[str, Any]:
+    """The members that a file has. Raises ModelError for one that is not what it must be: the only
+    check there is, for built-in files and others."""
+    given: dict[str, Any] = {k: namespace.get(k) for k in (*MEMBERS, *FUNCTIONS)}
+    given = {k: v for k, v in given.items() if v is not None and not _is_helper(k, v)}
+    for member, rule in MEMBERS.items():
+        if member in given and not rule.fits(given[member]):
+            raise ModelError(f"{member} of model {name} must be {rule.must.format(given[member])}")
+    given = {k: MEMBERS[k].make(v) if k in MEMBERS else v for k, v in given.items()}
+    for category, options in given.get("choices", {}).items():
+        _check_options(name, category, options)
+    for member in FUNCTIONS:
+        if member == "f" or member in given:
+            _check_arguments(name, member, given.get(member))
+    return given
+
+
+def _check_options(name: str, category: str, options: Any) -> None:
+    if not isinstance(options, Mapping) or not options:
+        raise ModelError(f"choices of model {name} needs a dictionary of options for {category}")
+    for pick, option in options.items():
+        parts = option if isinstance(option, Mapping) else ()
+        _known("part of an option", f"{category}={pick} of model {name}", parts, Parts._fields)
+
+
+def _check_arguments(name: str, member: str, value: Any) -> None:
+    function, arguments = getattr(value, "py_func", value), FUNCTIONS[member]
+    if not isinstance(function, types.FunctionType):
+        raise ModelError(f"model {name} needs a function {member}{arguments}")
+    if function.__code__.co_argcount != arguments.count(",") + 1:
+        raise ModelError(f"{member} of model {name} must take the arguments {arguments}")
+
+
+def _check_domain(name: str, domain: Mapping[str, Any]) -> None:
+    for parameter, ends in domain.items():
+        numbers = _is_pair(ends) and all(isinstance(e, (int, float)) for e in ends)
+        if not (numbers and ends[0] <= ends[1]):
+            raise ModelError(
+                f"domain of model {name} must give (low, high) for {parameter}, not {ends!r}"
+            )
+
+
+def _known(kind: str, where: str, given: Iterable[str], allowed: tuple[str, ...]) -> None:
+    for word in given:
+        if word not in allowed:
+            raise ModelError(f"{where}: {unknown(kind, word, allowed)}")
+
+
+def _parts(category: str, option: Any) -> Parts:
+    return Parts(**option) if isinstance(option, Mapping) else Parts({category: option})
+
+
+def _rebound(namespace: Namespace, names: Mapping[str, Callable[..., Any]]) -> Namespace:
+    """A copy of a module in which `names` stand for the functions picked, in every function."""
+    if not names:
+        return namespace
+    copy = {**namespace, **names}
+    for key, value in list(copy.items()):
+        if isinstance(value, types.FunctionType) and value.__globals__ is namespace:
+            copy[key] = types.FunctionType(
+                value.__code__, copy, value.__name__, value.__defaults__, value.__closure__
+            )
+    return copy
+
+
+def _params_of(
+    own: type[ParameterSet], options: list[Parts], picks: Mapping[str, str]
+) -> type[ParameterSet]:
+    """The file's own Params, or for a model with choices a NamedTuple of its and their fields."""
+    if not picks:
+        return own
+    extra = {k: v for option in options for k, v in option.params.items()}
+    return parameter_type(
+        dict.fromkeys((*own._fields, *extra)), {**own._field_defaults, **extra}, picks
+    )
+
+
+def members(namespace: Namespace) -> Iterator[str]:
+    """Names in a file that could be a model: its own functions (wo, wi, p) and classes with f."""
+    for key, value in namespace.items():
+        own = getattr(value, "__module__", None) == namespace.get("__name__")
+        if own and not key.startswith("_") and _could_be_model(key, value):
+            yield key
+
+
+def _could_be_model(key: str, value: Any) -> bool:
+    if isinstance(value, type):
+        return hasattr(value, "f")
+    part_of_another = key.endswith(("_sample", "_pdf")) or key in ("sample", "pdf")
+    three = isinstance(value, types.FunctionType) and value.__code__.co_argcount == 3
+    return three and not part_of_another

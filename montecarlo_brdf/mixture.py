@@ -43,12 +43,14 @@ class Node(NamedTuple):
 
 def f(wo: Vec, wi: Vec, p: Node) -> float:
     """weight f_1 + the rest."""
-    return p.weight * FIRST(wo, wi, p.first) + REST(wo, wi, p.rest)
+    value: float = p.weight * FIRST(wo, wi, p.first) + REST(wo, wi, p.rest)
+    return value
 
 
 def f_last(wo: Vec, wi: Vec, p: Last) -> float:
     """weight f_n."""
-    return p.weight * FIRST(wo, wi, p.first)
+    value: float = p.weight * FIRST(wo, wi, p.first)
+    return value
 
 
 def sample(wo: Vec, u: Vec, p: Node) -> Vec:
@@ -57,7 +59,8 @@ def sample(wo: Vec, u: Vec, p: Node) -> Vec:
     if u[2] < p.choose:
         w = FIRST(wo, (u[0], u[1], u[2] / p.choose), p.first)
         return w[0], w[1], w[2]
-    return REST(wo, (u[0], u[1], (u[2] - p.choose) / (1.0 - p.choose)), p.rest)
+    rest: Vec = REST(wo, (u[0], u[1], (u[2] - p.choose) / (1.0 - p.choose)), p.rest)
+    return rest
 
 
 def sample_last(wo: Vec, u: Vec, p: Last) -> Vec:
@@ -68,12 +71,14 @@ def sample_last(wo: Vec, u: Vec, p: Last) -> Vec:
 
 def pdf(wo: Vec, wi: Vec, p: Node) -> float:
     """The density of the whole mixture."""
-    return p.choose * FIRST(wo, wi, p.first) + (1.0 - p.choose) * REST(wo, wi, p.rest)
+    density: float = p.choose * FIRST(wo, wi, p.first) + (1.0 - p.choose) * REST(wo, wi, p.rest)
+    return density
 
 
 def pdf_last(wo: Vec, wi: Vec, p: Last) -> float:
     """The density of the last term."""
-    return FIRST(wo, wi, p.first)
+    density: float = FIRST(wo, wi, p.first)
+    return density
 
 
 def cosine_pdf(wo: Vec, wi: Vec, p: Prepared) -> float:

@@ -22,7 +22,6 @@ from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.judge.finding import Policy, Report, Verdict
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.model_file import build
 from montecarlo_brdf.report.text import case, failures
 from montecarlo_brdf.verify.question import INTERRUPTED
 from montecarlo_brdf.verify.run import run
@@ -200,7 +199,7 @@ def as_model(brdf: object, p: Parameters = None) -> Model:
     namespace = {"__doc__": brdf.__doc__, "__file__": file, **inside, "f": f}
     if isinstance(p, tuple) and "Params" not in namespace:
         namespace["Params"] = type(p)
-    return build(getattr(brdf, "__name__", type(brdf).__name__), namespace, {}, built_in=False)
+    return loading.build(getattr(brdf, "__name__", type(brdf).__name__), namespace)
 
 
 def parameters_of(model: Model, p: Parameters) -> Any:

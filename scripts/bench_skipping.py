@@ -16,7 +16,7 @@ from typing import Any
 import montecarlo_brdf as mb
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import plan, radiance, skies
-from montecarlo_brdf.scene.plan import Share, Work
+from montecarlo_brdf.scene.plan import Method, Share, Work
 from montecarlo_brdf.scene.scene import Directional, Scene
 from montecarlo_brdf.scene.skies import cap_of
 from montecarlo_brdf.scene.surface import Surface, lobes_of
@@ -103,7 +103,7 @@ def small_cap() -> tuple[str, float, str]:
     cap = cap_of(1.0, from_degrees(30.0))
     made = scene(surface("lambert", albedo=1.0), shape=cap)
     lobe = made.surface.lobes[0]  # type: ignore[union-attr]
-    work = Work("lambert", lobe.model, ((lobe.sets[0], cap),), (Share(0, 1.0),), "cosine")
+    work = Work("lambert", lobe.model, ((lobe.sets[0], cap),), (Share(0, 1.0),), Method.COSINE)
     hemisphere = plan.make(made)._replace(works=[work])
     times = [_time_to(p, 1e-4) for p in (hemisphere, plan.make(made))]
     return "cap of 1 degree to 1e-4: hemisphere / cap", times[0] / times[1], ">= 100"

@@ -18,7 +18,7 @@ FLOW = (
     ("bits", "files", "special", "student", "toml", "vectors"),
     ("compile", "statistics"),
     ("sampling",),
-    ("loading", "mixture", "model", "model_file", "models"),
+    ("loading", "mixture", "model", "models"),
     ("estimate",),
     ("cases",),
     ("judge",),

@@ -102,9 +102,3 @@ def reflected(wo: Vec, m: Vec) -> Vec:
     k = 2.0 * (wo[0] * m[0] + wo[1] * m[1] + wo[2] * m[2])
     k = k / (m[0] * m[0] + m[1] * m[1] + m[2] * m[2])
     return k * m[0] - wo[0], k * m[1] - wo[1], k * m[2] - wo[2]
-
-
-def ggx_visible_pdf(wo: Vec, wi: Vec, alpha: float) -> float:
-    """Density of `sample_visible`: G1(wo) D/(4 mu_o)."""
-    d = ggx_density(half_sums(wo, wi), alpha)
-    return 0.5 * d / (wo[2] + stretched(wo, alpha))

@@ -13,9 +13,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from montecarlo_brdf.models._half_lobe import half_power_pdf, sample_half_power
+from montecarlo_brdf.models import _half_lobe
 from montecarlo_brdf.models._microfacet import half_power, half_sums, schlick
-from montecarlo_brdf.models._mirror_lobe import width
+from montecarlo_brdf.models.phong import width
 from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
 
@@ -49,10 +49,10 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
 def sample(wo: Vec, u: Vec, p: Params) -> Vec:
     """One of the two, chosen by u[2]."""
     if u[2] < 0.5:
-        return sample_half_power(wo, u, p.n)
+        return _half_lobe.sample(wo, u, p)
     return random_hemisphere_cosine(u[0], u[1])
 
 
 def pdf(wo: Vec, wi: Vec, p: Params) -> float:
     """The density of the mixture."""
-    return 0.5 * half_power_pdf(wo, wi, p.n) + 0.5 * wi[2] / math.pi
+    return 0.5 * _half_lobe.pdf(wo, wi, p) + 0.5 * wi[2] / math.pi

@@ -15,10 +15,9 @@ from __future__ import annotations
 
 import math
 
-from montecarlo_brdf.models._half_lobe import half_power_pdf, sample_half_power
+from montecarlo_brdf.models._half_lobe import pdf, sample
 from montecarlo_brdf.models._microfacet import half_power, half_sums
-from montecarlo_brdf.models._mirror_lobe import width
-from montecarlo_brdf.models.phong import Params, domain, scales_with
+from montecarlo_brdf.models.phong import Params, domain, scales_with, width
 from montecarlo_brdf.special import exp2
 from montecarlo_brdf.vectors import Vec
 
@@ -63,13 +62,3 @@ norm = n_plus_2
 def f(wo: Vec, wi: Vec, p: Params) -> float:
     """ks N (n.h)^n."""
     return p.ks * norm(p) * half_power(half_sums(wo, wi), p.n)
-
-
-def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Reflection by a half vector of the lobe."""
-    return sample_half_power(wo, u, p.n)
-
-
-def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """(n+1)/(2 pi) (n.h)^n/(4 h.v)."""
-    return half_power_pdf(wo, wi, p.n)

@@ -33,9 +33,9 @@ from montecarlo_brdf.models._microfacet import (
     schlick,
     stretched,
 )
-from montecarlo_brdf.models._mirror_lobe import width
 from montecarlo_brdf.models._smith import beckmann_hidden, blinn_phong_hidden, blinn_phong_series
 from montecarlo_brdf.models.ggx import pdf, sample
+from montecarlo_brdf.models.phong import width
 from montecarlo_brdf.vectors import Vec
 
 

@@ -12,19 +12,12 @@ roughness > 2/5, under uniform light for roughness > 0.427.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from montecarlo_brdf.models._cosine import pdf, sample
 from montecarlo_brdf.models._microfacet import half_sums
+from montecarlo_brdf.models.fon import Params, domain
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    albedo: float = 0.8
-    roughness: float = 0.5
-
-
-domain = {"albedo": (0.0, 1.0), "roughness": (0.0, 1.0)}
 verified = [Params(), Params(roughness=0.0), Params(roughness=1.0)]
 disclaims = {"energy": "albedo 1 reflects up to 785/504 = 1.557540 at grazing (roughness 1)"}
 scales_with = "albedo"

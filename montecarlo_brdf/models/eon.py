@@ -15,10 +15,19 @@ import math
 from typing import NamedTuple
 
 from montecarlo_brdf.models._cosine import pdf, sample
-from montecarlo_brdf.models._rough_diffuse import fon_scale, missing, tangential_ratio
-from montecarlo_brdf.models.fon import Params, domain, kinks, limits, verified
+from montecarlo_brdf.models.fon import (
+    Params,
+    domain,
+    fon_scale,
+    kinks,
+    limits,
+    tangential_ratio,
+    verified,
+)
+from montecarlo_brdf.special import polar_angle
 from montecarlo_brdf.vectors import Vec
 
+G_GRAZING = 0.5 * math.pi - 2.0 / 3.0
 AVERAGE_MISSING = 6.0 / (5.0 * math.pi) - 1.0 / 6.0
 lossless = [Params(albedo=1.0, roughness=r) for r in (0.0, 0.5, 1.0)]
 
@@ -36,6 +45,19 @@ def prepare(p: Params) -> Prepared:
     albedo_ms = p.albedo * p.albedo * (1.0 - lost) / (1.0 - p.albedo * lost)
     multiple = albedo_ms / math.pi * a * p.roughness / (math.pi * math.pi * AVERAGE_MISSING)
     return Prepared(p.albedo / math.pi * a, p.roughness, multiple)
+
+
+def missing(w: Vec) -> float:
+    """G(pi/2) - G(theta), to which the light that FON loses is proportional.
+
+    With gamma = pi/2 - theta and mu = sin(gamma) every term vanishes at grazing, so it keeps its
+    digits there, where G(pi/2) - G would cancel.
+    """
+    mu = w[2]
+    s = math.sqrt(w[0] * w[0] + w[1] * w[1])
+    q = 1.0 / (1.0 + s)
+    dip = G_GRAZING * mu * mu * q + s * s * mu + s * polar_angle(mu, s)
+    return dip - 2.0 / 3.0 * s * mu * (1.0 + s + s * s) * q
 
 
 def f(wo: Vec, wi: Vec, p: Prepared) -> float:

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 
 from montecarlo_brdf.models._cosine import pdf, sample
-from montecarlo_brdf.models._rough_diffuse import tangential_ratio
+from montecarlo_brdf.models.fon import tangential_ratio
 from montecarlo_brdf.models.oren_nayar import Params, domain, kinks, limits, verified
 from montecarlo_brdf.vectors import Vec
 

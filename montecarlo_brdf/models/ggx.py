@@ -17,11 +17,12 @@ from typing import NamedTuple
 
 from montecarlo_brdf.models._microfacet import (
     Facets,
+    ggx_density,
     ggx_reflection,
-    ggx_visible_pdf,
     half_sums,
     sample_visible,
     schlick,
+    stretched,
 )
 from montecarlo_brdf.vectors import Vec
 
@@ -50,4 +51,5 @@ def sample(wo: Vec, u: Vec, p: Facets) -> Vec:
 
 def pdf(wo: Vec, wi: Vec, p: Facets) -> float:
     """G1(wo) D/(4 mu_o)."""
-    return ggx_visible_pdf(wo, wi, p.alpha)
+    d = ggx_density(half_sums(wo, wi), p.alpha)
+    return 0.5 * d / (wo[2] + stretched(wo, p.alpha))

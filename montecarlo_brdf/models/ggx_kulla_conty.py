@@ -15,7 +15,8 @@ import math
 
 from montecarlo_brdf.models import ggx
 from montecarlo_brdf.models._energy import Table, average_lost, lost, table
-from montecarlo_brdf.models.ggx_turquin import Params, domain, lobe, lossless, verified
+from montecarlo_brdf.models.ggx import Params, domain, lobe
+from montecarlo_brdf.models.ggx_turquin import lossless, verified
 from montecarlo_brdf.sampling.warps import random_hemisphere_cosine
 from montecarlo_brdf.vectors import Vec
 

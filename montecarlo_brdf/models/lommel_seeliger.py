@@ -11,17 +11,11 @@ Source: Seeliger 1887; Fairbairn 2005, "Planetary photometry: the Lommel-Seelige
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
+from montecarlo_brdf.models.lambert import Params, domain
 from montecarlo_brdf.special import turn
 from montecarlo_brdf.vectors import Vec
 
-
-class Params(NamedTuple):
-    albedo: float = 0.8
-
-
-domain = {"albedo": (0.0, 1.0)}
 verified = [Params(), Params(albedo=1.0)]
 scales_with = "albedo"
 

@@ -14,8 +14,15 @@ from __future__ import annotations
 
 import math
 
-from montecarlo_brdf.models._mirror_lobe import mirror_power
-from montecarlo_brdf.models.phong import Params, domain, lobe, pdf, sample, scales_with
+from montecarlo_brdf.models.phong import (
+    Params,
+    domain,
+    lobe,
+    mirror_power,
+    pdf,
+    sample,
+    scales_with,
+)
 from montecarlo_brdf.vectors import Vec
 
 verified = [Params(), Params(n=1.0), Params(n=1e4)]

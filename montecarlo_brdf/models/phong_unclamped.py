@@ -15,12 +15,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from montecarlo_brdf.models._mirror_lobe import (
-    away_from_mirror,
-    mirror_power_pdf,
-    sample_mirror_power,
-)
-from montecarlo_brdf.models.phong import domain, lobe, scales_with
+from montecarlo_brdf.models import phong
+from montecarlo_brdf.models.phong import away_from_mirror, domain, lobe, scales_with
 from montecarlo_brdf.special import cosine_power
 from montecarlo_brdf.vectors import Vec
 
@@ -69,12 +65,12 @@ def _opposite(w: Vec) -> Vec:
 
 def sample(wo: Vec, u: Vec, p: Params) -> Vec:
     """A direction of the lobe around the mirror direction, or its opposite."""
-    w = sample_mirror_power(wo, u, p.n)
+    w = phong.sample(wo, u, p)
     side = 1.0 if u[2] < 0.5 else -1.0
     return side * w[0], side * w[1], side * w[2]
 
 
 def pdf(wo: Vec, wi: Vec, p: Params) -> float:
     """Half of (n+1)/(2 pi) |r.v|^n, in either of whose lobes r.v = 0 has |r.v|^0 = 1."""
-    both = mirror_power_pdf(wo, wi, p.n) + mirror_power_pdf(wo, _opposite(wi), p.n)
+    both = phong.pdf(wo, wi, p) + phong.pdf(wo, _opposite(wi), p)
     return 0.5 * (1.0 / (2.0 * math.pi) if p.n == 0.0 and both == 0.0 else both)

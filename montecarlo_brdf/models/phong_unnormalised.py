@@ -10,8 +10,15 @@ Violates: energy conservation for n < 2 pi - 2 = 4.2832 (ks = 1): the albedo at 
 """
 from __future__ import annotations
 
-from montecarlo_brdf.models._mirror_lobe import mirror_power
-from montecarlo_brdf.models.phong import Params, domain, lobe, pdf, sample, scales_with
+from montecarlo_brdf.models.phong import (
+    Params,
+    domain,
+    lobe,
+    mirror_power,
+    pdf,
+    sample,
+    scales_with,
+)
 from montecarlo_brdf.vectors import Vec
 
 verified = [Params(), Params(n=10.0), Params(n=1e4)]

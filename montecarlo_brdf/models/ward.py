@@ -16,8 +16,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from montecarlo_brdf.models._half_lobe import gaussian, gaussian_pdf, sample_gaussian
-from montecarlo_brdf.models._microfacet import half_sums
+from montecarlo_brdf.models._microfacet import half_sums, reflected
+from montecarlo_brdf.special import exp, log1p, turn
 from montecarlo_brdf.vectors import Vec
 
 
@@ -28,6 +28,11 @@ class Params(NamedTuple):
 domain = {"alpha": (1e-4, 1.0)}
 verified = [Params(), Params(alpha=0.05), Params(alpha=0.5)]
 lobe = ("half vector", lambda p: p.alpha)
+
+
+def gaussian(h: Vec, alpha: float) -> float:
+    """exp(-tan^2 theta_h/alpha^2)."""
+    return exp(-h[0] / (h[1] * h[1] * alpha * alpha))
 
 
 def ward_1992(h: Vec, wo: Vec, wi: Vec) -> float:
@@ -69,10 +74,14 @@ def f(wo: Vec, wi: Vec, p: Params) -> float:
 
 
 def sample(wo: Vec, u: Vec, p: Params) -> Vec:
-    """Reflection by a half vector of Gaussian slope."""
-    return sample_gaussian(wo, u, p.alpha)
+    """wo reflected by a half vector with tan = alpha sqrt(-ln(1 - u)); may be rejected."""
+    t = p.alpha * math.sqrt(-log1p(-u[0]))
+    c, s = turn(u[1])
+    return reflected(wo, (t * c, t * s, 1.0))
 
 
 def pdf(wo: Vec, wi: Vec, p: Params) -> float:
-    """exp(-tan^2/alpha^2)/(pi alpha^2 (n.h)^3 4 (h.v))."""
-    return gaussian_pdf(wo, wi, p.alpha)
+    """exp(-tan^2/alpha^2)/(pi alpha^2 (n.h)^3 4 (h.v)), Walter 2005, eq. 9."""
+    h = half_sums(wo, wi)
+    z = h[1]
+    return gaussian(h, p.alpha) * h[2] / (2.0 * math.pi * p.alpha * p.alpha * z * z * z)

@@ -46,7 +46,7 @@ def _around(light: _Directions, elevation_o: float, theta_o: float, alpha: float
     plus = 4.0 * cos_delta2 * (sin_sigma2 + alpha**2 * cos_sigma2)
     a = 4.0 * cos_sigma2 * cos_delta2 * (1.0 - alpha) * (1.0 + alpha)
     root = np.sqrt(minus * plus)
-    ratio = a / root
+    ratio: Array = a / root
     return 2.0 * alpha**2 * (1.0 + ratio * (2.0 + 0.5 * ratio * (minus + plus) / root))
 
 
@@ -61,8 +61,8 @@ def unit_albedo(mu_o: float, alpha: float) -> tuple[float, float]:
         mu, s = np.sin(light.elevation), np.sin(light.theta)
         rough, rough_o = np.hypot(mu, alpha * s), np.hypot(mu_o, alpha * s_o)
         smith = 2.0 / (mu_o * rough + mu * rough_o)  # G/(mu_i mu_o)
-        around = _around(light, up, theta, alpha)
-        return light.weight * around * 0.25 * smith * mu * s
+        around: Array = light.weight * _around(light, up, theta, alpha) * 0.25 * smith * mu * s
+        return around
 
     def rule(size: float) -> Sum:
         x, rest, weight = tanh_sinh(2 * int(size * (40.0 - 8.0 * math.log(alpha))))

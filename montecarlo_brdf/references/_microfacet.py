@@ -1,20 +1,23 @@
-"""Normal distributions in slope space, their exact Smith masking, and other visibility terms.
+"""Normal distributions in slope space, their exact Smith masking, other visibility terms; Fresnel.
 
 P22(t) is the density of slopes (Beckmann & Spizzichino 1963; Trowbridge & Reitz 1975 = GGX;
 Blinn 1977), D = P22/cos^4(theta_h), and Smith's Lambda follows by integration over the slopes that
 face away (Heitz 2014, eq. 72); for Blinn-Phong that integral is an incomplete beta function, so
-all three are exact. A masking below is G/(mu_i mu_o), which stays finite at the horizon.
+all three are exact. A masking below is G/(mu_i mu_o), which stays finite at the horizon. Fresnel's
+reflectance is a function of x = h.v, in forms without cancellation.
 """
 
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from montecarlo_brdf.references._gamma import half_step
-from montecarlo_brdf.references._quadrature import TINY, Geometry
+from montecarlo_brdf.references._kinks import TINY
+from montecarlo_brdf.references._quadrature import Geometry
 from montecarlo_brdf.references._rules import Array
 
 BEYOND = 50.0  # ln of the decay at which a tail no longer counts: exp(-50) = 2e-22
@@ -56,7 +59,8 @@ def beckmann(alpha: float) -> Distribution:
 
     def lam(mu: Array) -> Array:
         a = mu / (alpha * np.sqrt(_sine_squared(mu)))
-        return 0.5 * (np.exp(-a * a) / (a * math.sqrt(np.pi)) - erfc(a))
+        tail: Array = erfc(a)
+        return 0.5 * (np.exp(-a * a) / (a * math.sqrt(np.pi)) - tail)
 
     def p22(t: Array) -> Array:
         return np.exp(-((t / alpha) ** 2)) / (np.pi * alpha * alpha)
@@ -190,3 +194,29 @@ MASKINGS: dict[str, Visibility] = {
     "schlick_k_direct": schlick_k_direct,
     "schlick_k_ibl": schlick_k_ibl,
 }
+
+
+def schlick(x: Array, f0: float) -> Array:
+    """Schlick 1994: f0 + (1 - f0)(1 - x)^5."""
+    y = 1.0 - x
+    square = y * y
+    return f0 + (1.0 - f0) * (square * square * y)
+
+
+def fresnel(x: Array, eta: float, k: float = 0.0) -> Array:
+    """Exact unpolarised reflectance for the index m = eta + i k against 1.
+
+    With g^2 = m^2 - 1 + x^2 the amplitudes (x-g)/(x+g) and (m^2 x-g)/(m^2 x+g) are rewritten so
+    that m -> 1 costs no digits. Total internal reflection (eta < 1) comes out as exactly 1.
+    """
+    m = eta if k == 0.0 and eta >= 1.0 else complex(eta, k)
+    m2, above_one = m * m, (m - 1.0) * (m + 1.0)
+    g = np.sqrt(above_one + x * x)
+    senkrecht = 1.0 / _norm(x + g) ** 2
+    parallel = _norm(x * x * (m2 + 1.0) - 1.0) / _norm(m2 * x + g) ** 2
+    return 0.5 * abs(above_one) ** 2 * (senkrecht + parallel)
+
+
+def _norm(z: NDArray[np.inexact[Any]]) -> Array:
+    """|z|^2 without the square root of abs."""
+    return np.asarray(z.real**2 + z.imag**2 if np.iscomplexobj(z) else z * z)

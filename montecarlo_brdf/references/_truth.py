@@ -1,5 +1,6 @@
 """What a reference returns, and how the rounding of a closed form is bounded."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 EPSILON = 2.0**-52
@@ -12,6 +13,14 @@ class Truth(NamedTuple):
     error: float
     kind: str
     source: str
+
+
+class Albedos(NamedTuple):
+    """The truth about one model, as functions of a cosine and of parameters and choices by name."""
+
+    albedo: Callable[..., Truth]  # A(theta_o) of cos(theta_o)
+    bihemispherical: Callable[..., Truth]  # 2 * integral of A(mu) mu dmu, without a cosine
+    reverse_albedo: Callable[..., Truth] | None = None  # R(theta_i); None: f is reciprocal, R = A
 
 
 def closed_form(value: float, source: str, *, terms: float = 0.0, condition: float = 1.0) -> Truth:

@@ -10,8 +10,9 @@ import math
 
 import numpy as np
 
-from montecarlo_brdf.references import _fresnel
-from montecarlo_brdf.references._quadrature import NORMAL_VIEW, TINY, horizon, slopes
+from montecarlo_brdf.references._kinks import TINY
+from montecarlo_brdf.references._microfacet import schlick
+from montecarlo_brdf.references._quadrature import NORMAL_VIEW, horizon, slopes
 from montecarlo_brdf.references._rules import (
     Sum,
     converge,
@@ -24,7 +25,6 @@ from montecarlo_brdf.references._rules import (
 )
 from montecarlo_brdf.references._truth import Truth, sine
 
-RECIPROCAL = True
 SOURCE = "quadrature in elliptic half-vector slopes fitted to the horizon"
 
 
@@ -71,7 +71,7 @@ def _integrate(
         rough = np.sqrt(np.maximum(g.mu_i**2 + light_x**2 + light_y**2, TINY))
         masking = 2.0 * g.mu_i / (g.mu_i * rough_o + mu_o * rough)  # G/mu_o
         p22 = 1.0 / (math.pi * alpha_x * alpha_y * (1.0 + (g.t / m) ** 2) ** 2)
-        density = p22 * masking * (g.h_v / g.h_n) * _fresnel.schlick(g.h_v, f0)
+        density = p22 * masking * (g.h_v / g.h_n) * schlick(g.h_v, f0)
         return total(weight[:, None] * measure * density)
 
     return converge(rule)

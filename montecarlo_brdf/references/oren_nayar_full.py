@@ -13,7 +13,6 @@ import math
 
 import numpy as np
 
-from montecarlo_brdf.references._oren_nayar import constants
 from montecarlo_brdf.references._rules import (
     Array,
     Sum,
@@ -24,8 +23,8 @@ from montecarlo_brdf.references._rules import (
     total,
 )
 from montecarlo_brdf.references._truth import EPSILON, Truth, sine
+from montecarlo_brdf.references.oren_nayar import constants
 
-RECIPROCAL = True
 SOURCE = "1-D quadrature, azimuth in closed form"
 
 

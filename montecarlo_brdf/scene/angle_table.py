@@ -14,7 +14,7 @@ from montecarlo_brdf.estimate import adaptive
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.samplers import charts_of
 from montecarlo_brdf.scene.pixels import PLACE, means
-from montecarlo_brdf.scene.plan import Work
+from montecarlo_brdf.scene.plan import Method, Work
 from montecarlo_brdf.scene.radiance import constant_values
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def tabulated(
     """Radiance (n, sets) at the cosines `mu`, a bound on its error, and how it was found."""
     import numpy as np
 
-    if work.method == "one value":
+    if work.method is Method.ONE_VALUE:
         return np.tile(constant_values(work), (len(mu), 1)), 0.0, "one value"
     low = float(np.sqrt(np.min(mu)))
     cosines = np.linspace(low, 1.0, INTERVALS + 1) ** 2
@@ -97,4 +97,5 @@ def cubic(values: Reals, t: Reals) -> Reals:
         x * (x - 1.0) * (x - 3.0) / -2.0,
         x * (x - 1.0) * (x - 2.0) / 6.0,
     )
-    return sum(w * values[first + k] for k, w in enumerate(weights))
+    found: Reals = sum(w * values[first + k] for k, w in enumerate(weights))
+    return found

@@ -30,7 +30,7 @@ from montecarlo_brdf.judge.claim import (
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
 from montecarlo_brdf.scene import radiance, standard, truth
-from montecarlo_brdf.scene.plan import Angles, ScenePlan
+from montecarlo_brdf.scene.plan import Angles, Method, ScenePlan
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.skies import Constant
 from montecarlo_brdf.scene.standard import Standard
@@ -140,7 +140,7 @@ def _furnace(
     if not lone or any(scene.emission) or any(scene.ambient) or scene.sky is None:
         return None
     (lobe,), factor = scene.lobes, scene.lobes[0].weights[channel] * scene.sky.scales[channel]
-    sampled = plan.works[0].method != "one value" and factor > 0.0
+    sampled = plan.works[0].method is not Method.ONE_VALUE and factor > 0.0
     if not sampled or not isinstance(scene.sky.shapes[channel], Constant):
         return None
     at = ("furnace", view, channel, tolerance)

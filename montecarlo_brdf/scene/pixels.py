@@ -19,7 +19,7 @@ from montecarlo_brdf.estimate.work import Progress
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key
 from montecarlo_brdf.scene import integrands, skies
-from montecarlo_brdf.scene.plan import Work
+from montecarlo_brdf.scene.plan import Method, Work
 from montecarlo_brdf.scene.radiance import Lit, method_name
 from montecarlo_brdf.vectors import Vec, dot
 
@@ -103,7 +103,7 @@ def kernel_of(work: Work) -> tuple[Kernel, list[float]]:
         names["SKY_PDF"] = bound(placed_value, INNER=sky.pdf)
     else:
         names |= {"SKY_SAMPLE": integrands.cosine_sample, "SKY_PDF": integrands.cosine_pdf}
-    name = "cosine" if work.method == "one value" else method_name(work)
+    name = Method.COSINE if work.method is Method.ONE_VALUE else method_name(work)
     layout, numbers = pack([Lit(model.prepared(p), s) for p, s in work.sets], 0)
     made = kernel(
         model.name,

@@ -6,18 +6,29 @@ it. `skip=False` gives the long way, every lobe, channel, light and view for its
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.colour import Colour
-from montecarlo_brdf.scene.methods import method_of, unscaled
 from montecarlo_brdf.scene.scene import ORIGIN, Scene, as_lobes
 from montecarlo_brdf.scene.skies import Shape, Sky
-from montecarlo_brdf.scene.surface import Lobe, Parameters, Surface
+from montecarlo_brdf.scene.surface import Lobe, Parameters, Surface, ignores_directions
 from montecarlo_brdf.vectors import Vec
 
 Angles = tuple[float, float]  # theta, phi in degrees
+WIDE = 0.1  # share of a cap's solid angle that a lobe must fill to be sampled by the cap alone
+
+
+class Method(StrEnum):
+    """How a lobe is evaluated: at one value, or by samples of directions from one source or two."""
+
+    ONE_VALUE = "one value"
+    COSINE = "cosine"
+    SKY = "sky"
+    OWN = "own"
+    MIXED = "mixed"
 
 
 class Item(NamedTuple):
@@ -43,7 +54,7 @@ class Work(NamedTuple):
     model: Model
     sets: tuple[tuple[Parameters, Shape], ...]
     shares: tuple[Share | None, ...]  # per channel
-    method: str
+    method: Method
 
 
 class ScenePlan(NamedTuple):
@@ -107,7 +118,7 @@ def _alone(lobe: Lobe, sky: Sky, c: int) -> Work:
     count = len(lobe.weights)
     share = Share(0, lobe.weights[c] * sky.scales[c])
     shares = tuple(share if k == c else None for k in range(count))
-    method = "own" if lobe.model.sample else "cosine"
+    method = Method.OWN if lobe.model.sample else Method.COSINE
     return Work(lobe.name, lobe.model, ((lobe.sets[c], sky.shapes[c]),), shares, method)
 
 
@@ -129,9 +140,38 @@ def _shared(lobe: Lobe, sky: Sky, items: list[Item]) -> Work | None:
     if not sets:
         items.append(Item(f"lobe {lobe.name}", False, "it reflects nothing", len(shares)))
         return None
-    work = Work(lobe.name, lobe.model, tuple(sets), tuple(shares), method_of(lobe.model, *sets[0]))
+    work = Work(lobe.name, lobe.model, tuple(sets), tuple(shares), _method(lobe.model, *sets[0]))
     _explain(work, items)
     return work
+
+
+def unscaled(model: Model, p: Parameters) -> tuple[Parameters, float]:
+    """The parameter set with its scale taken out, and the scale: f is proportional to it."""
+    name = model.scales_with
+    if not name:
+        return p, 1.0
+    return p._replace(**{name: 1.0}), float(getattr(p, name))
+
+
+def _method(model: Model, p: Parameters, shape: Shape) -> Method:
+    """The sampler for a lobe under a sky: the cheapest that sees both."""
+    if ignores_directions(model):
+        constant = isinstance(shape, skies.Constant)
+        spread = Method.SKY if skies.concentrated(shape) else Method.COSINE
+        return Method.ONE_VALUE if constant else spread
+    if isinstance(shape, skies.Cap) and _covers(model, p, shape):
+        return Method.SKY  # no sample meets the cap's edge, where the mixture's integrand jumps
+    if skies.concentrated(shape):
+        return Method.MIXED if model.sample and model.pdf else Method.SKY
+    return Method.OWN if model.sample else Method.COSINE
+
+
+def _covers(model: Model, p: Parameters, shape: skies.Cap) -> bool:
+    """Whether a lobe is wide enough for uniform samples of a cap to see all of it."""
+    if model.lobe is None:
+        return True
+    width = 2.0 * float(model.lobe[1](p))  # half vectors turn half as fast as directions
+    return width * width > WIDE * shape.depth
 
 
 def _explain(work: Work, items: list[Item]) -> None:
@@ -143,12 +183,12 @@ def _explain(work: Work, items: list[Item]) -> None:
     if equal:
         reason = "equal to another channel, or a multiple of it"
         items.append(Item(f"{name}, {equal} channels", False, reason, equal))
-    if work.method == "one value":
+    if work.method is Method.ONE_VALUE:
         items.append(Item(name, False, "the integrand is constant: one evaluation", len(work.sets)))
         return
     shape = work.sets[0][1]
     share = skies.visible_share(shape)
-    if share < 1.0 and work.method == "sky":
+    if share < 1.0 and work.method is Method.SKY:
         reason = f"only the {share:.2g} of the hemisphere that the cap covers is sampled"
         items.append(Item("directions beyond the cap", False, reason))
     items.append(

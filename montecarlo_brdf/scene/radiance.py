@@ -18,8 +18,7 @@ from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model, ParameterSet, Prepared
 from montecarlo_brdf.sampling.points import DIMENSIONS
 from montecarlo_brdf.scene import integrands, skies
-from montecarlo_brdf.scene.methods import unscaled
-from montecarlo_brdf.scene.plan import ScenePlan, Work
+from montecarlo_brdf.scene.plan import Method, ScenePlan, Work, unscaled
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.surface import Lobe, ignores_directions
 from montecarlo_brdf.statistics import FLOOR, Estimate
@@ -39,7 +38,7 @@ def measure(plan: ScenePlan, wo: Vec, sampling: Plan) -> list[Measurement]:
     parts: list[list[tuple[float, Estimate]]] = [[] for _ in exact]
     unfit: list[str | None] = [None] * len(exact)
     for work in plan.works:
-        if work.method == "one value":
+        if work.method is Method.ONE_VALUE:
             _add_values(work, exact)
             continue
         estimates = _estimate(work, wo, sampling)
@@ -154,7 +153,7 @@ def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str |
 
 def method_name(work: Work) -> str:
     """Its integrand: that of the weight where the sampler has no pdf."""
-    alone = work.method == "own" and work.model.pdf is None and weighted(work.model)
+    alone = work.method is Method.OWN and work.model.pdf is None and weighted(work.model)
     return "weighted" if alone else work.method
 
 
@@ -165,7 +164,7 @@ def reason_unfit(
     if not math.isfinite(e.mean) or skies.below_horizon(shape):
         return None
     if e.mean == 0.0 and not e.largest:
-        return f"no sample of {e.samples} met light" if work.method == "own" else None
+        return f"no sample of {e.samples} met light" if work.method is Method.OWN else None
     unfit = trust.few_carry(work.method, e, e.second_moment) or _hidden(work, e, p, shape, wo)
     return unfit.reason if unfit else None
 
@@ -174,11 +173,11 @@ def _hidden(
     work: Work, e: Estimate, p: ParameterSet, shape: skies.Shape, wo: Vec
 ) -> trust.Unfit | None:
     """A lobe of which directions know nothing."""
-    if work.model.sample and work.method != "sky" or ignores_directions(work.model):
+    if work.model.sample and work.method is not Method.SKY or ignores_directions(work.model):
         return None
     sky = skies.FUNCTIONS[type(shape)]
     at = mirrored(wo)
-    density = sky.pdf(at, shape) if work.method == "sky" and sky.pdf else at[2] / math.pi
+    density = sky.pdf(at, shape) if work.method is Method.SKY and sky.pdf else at[2] / math.pi
     highest, _ = probe.highest(work.model, work.model.prepared(p), wo)
     expected = highest * sky.radiance(at, shape) * at[2] / density if density else 0.0
     return trust.hardly_hit(work.method, e, expected)

@@ -175,7 +175,8 @@ def in_world(disk: Disk, camera: Vec) -> Reals:
 
     x, y, z = disk
     right, up = _screen(camera)
-    return x[:, None] * right + y[:, None] * up + z[:, None] * np.array(camera)
+    normals: Reals = x[:, None] * right + y[:, None] * up + z[:, None] * np.array(camera)
+    return normals
 
 
 def _screen(camera: Vec) -> tuple[Reals, Reals]:

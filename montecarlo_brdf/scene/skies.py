@@ -14,7 +14,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.scene.colour import spread
-from montecarlo_brdf.scene.texels import Image, image, image_pdf, image_sample
+from montecarlo_brdf.scene.texels import Image as Image
+from montecarlo_brdf.scene.texels import image, image_pdf, image_sample
 from montecarlo_brdf.special import cosine_power, expm1, log1p, turn
 from montecarlo_brdf.vectors import NORMAL, Vec, dot, from_degrees, tangent_frame
 

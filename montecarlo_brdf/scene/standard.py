@@ -20,10 +20,9 @@ from collections.abc import Callable, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
-from montecarlo_brdf import loading
+from montecarlo_brdf.loading import build, load
 from montecarlo_brdf.model import Model, ParameterSet
-from montecarlo_brdf.model_file import build
-from montecarlo_brdf.models._half_lobe import half_power_pdf, sample_half_power
+from montecarlo_brdf.models._half_lobe import pdf, sample
 from montecarlo_brdf.models._microfacet import half_power, half_sums
 from montecarlo_brdf.scene.colour import Colour
 from montecarlo_brdf.scene.surface import Lobe, Surface
@@ -94,16 +93,6 @@ def blinn(wo: Vec, wi: Vec, p: Gloss) -> float:
     return half_power(half_sums(wo, wi), p.n) / wi[2]
 
 
-def sample_blinn(wo: Vec, u: Vec, p: Gloss) -> Vec:
-    """A half vector by its cosine power."""
-    return sample_half_power(wo, u, p.n)
-
-
-def pdf_blinn(wo: Vec, wi: Vec, p: Gloss) -> float:
-    """Its density."""
-    return half_power_pdf(wo, wi, p.n)
-
-
 def glossy_diffuse(wo: Vec, wi: Vec, p: Gloss) -> float:
     """mu_i^(n-1): the printed variant with the gloss exponent on the diffuse cosine."""
     return power(wi[2], p.n - 1.0)
@@ -115,21 +104,21 @@ def _width(p: Gloss) -> float:
 
 def _model(name: str, f: Callable[..., float], **more: object) -> Model:
     """A model of this file, with the exponent as its parameter."""
-    return build(name, {"__doc__": name, "Params": Gloss, "f": f, **more}, {}, built_in=False)
+    return build(name, {"__doc__": name, "Params": Gloss, "f": f, **more})
 
 
 def _diffuse(s: Standard) -> Lobe:
     if s.gloss_on_diffuse:
         return _lobe("diffuse", s.diffuse, _model("diffuse", glossy_diffuse), Gloss(s.gloss))
-    model = loading.load("lambert_unnormalised")
+    model = load("lambert_unnormalised")
     return _lobe("diffuse", s.diffuse, model, model.parameters(c=1.0))
 
 
 def _specular(s: Standard) -> Lobe:
     if s.form is Form.PHONG:
-        model = loading.load("phong_original", norm="none")
+        model = load("phong_original", norm="none")
         return _lobe("specular", s.specular, model, model.parameters(ks=1.0, n=s.gloss))
-    functions = {"sample": sample_blinn, "pdf": pdf_blinn, "lobe": ("half vector", _width)}
+    functions = {"sample": sample, "pdf": pdf, "lobe": ("half vector", _width)}
     return _lobe("specular", s.specular, _model("blinn", blinn, **functions), Gloss(s.gloss))
 
 

@@ -1,9 +1,9 @@
 """The spread that estimators predict for blind samplers is the true one.
 
-`second_uniform` and `second_cosine` estimate E[x^2] of the one-sample albedo estimator from draws
-by the model's own sampler; formulas and quadratures give it independently. The deviation is judged
-by Student's t at 1e-7 per value (about 1e-5 for all), plus 2e-3 where replicates of an integrand
-with a heavy tail know too little of it.
+`second_moment` by uniform and by cosine sampling estimates E[x^2] of the one-sample albedo
+estimator from draws by the model's own sampler; formulas and quadratures give it independently. The
+deviation is judged by Student's t at 1e-7 per value (about 1e-5 for all), plus 2e-3 where
+replicates of an integrand with a heavy tail know too little of it.
 """
 
 from __future__ import annotations
@@ -17,6 +17,9 @@ import pytest
 from montecarlo_brdf import load
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.quantity import second_moment
+from montecarlo_brdf.estimate.subject import functions_of
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import from_degrees
 
 LEVEL = 1e-7
@@ -58,8 +61,9 @@ def translated(params: dict[str, Any]) -> dict[str, Any]:
 def test_predicted_second_moment(entry: dict[str, Any]) -> None:
     model = load(MODELS.get(entry["model"], entry["model"]))
     p = model.parameters(**translated(entry["params"]))
-    sampler = entry["quantity"].removeprefix("second_moment_")
-    wo = from_degrees(entry["theta_o_deg"])
-    (e,) = estimates(model.of(p), p, wo, [f"second_{sampler}"], PLAN, ("test",))[0]
+    sampler = Sampler(entry["quantity"].removeprefix("second_moment_"))
+    wo, variant = from_degrees(entry["theta_o_deg"]), model.of(p)
+    integrand = second_moment(sampler, functions_of(variant))
+    (e,) = estimates(variant, p, wo, [integrand], PLAN, ("test",))[0]
     truth = float(entry["value"])
     assert abs(e.mean - truth) <= e.half_width(LEVEL) + 2e-3 * truth

@@ -11,9 +11,8 @@ import pytest
 from reference_data import cosine
 
 from montecarlo_brdf import references
-from montecarlo_brdf.references._fresnel import fresnel
 from montecarlo_brdf.references._gamma import half_step
-from montecarlo_brdf.references._microfacet import blinn_phong
+from montecarlo_brdf.references._microfacet import blinn_phong, fresnel
 from montecarlo_brdf.references._rules import gauss, tanh_sinh
 
 STEEP = (0.01, 1.0, 40.0, 89.0, 89.9, 89.99)

@@ -90,7 +90,7 @@ def test_turquin_sends_back_more_than_it_gets(theta: float) -> None:
 
 @pytest.mark.parametrize(("eta", "k"), [(0.2, 3.9), (1.5, 0.0), (1.5, 0.01), (2.9, 3.1)])
 def test_fresnel(eta: float, k: float) -> None:
-    from montecarlo_brdf.references._fresnel import fresnel
+    from montecarlo_brdf.references._microfacet import fresnel
 
     x = np.linspace(1e-6, 1.0, 200)
     assert np.allclose(fresnel(x, eta, k), vm.conductor(x, eta, k), rtol=1e-12, atol=1e-14)

@@ -10,7 +10,6 @@ from columns import in_precision
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.model_file import build
 from montecarlo_brdf.stability import arithmetic, designed, ladder
 from montecarlo_brdf.stability.ladder import Rung
 
@@ -64,7 +63,7 @@ def leaving(wo, wi, p):  # type: ignore[no-untyped-def]
 
 @pytest.mark.parametrize("f", [widening, leaving])
 def test_widening_is_not_silent(f: object) -> None:
-    model = build("wide", {"f": f, "np": np}, {}, built_in=False)
+    model = loading.build("wide", {"f": f, "np": np})
     up = np.array([[0.0, 0.0, 1.0], [0.6, 0.0, 0.8]], dtype=np.float32)
     with pytest.raises(ModelError, match="leaves its precision"):
         Rung(model, SINGLE).f(up, up, model.Params())

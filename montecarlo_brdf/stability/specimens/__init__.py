@@ -11,7 +11,6 @@ from pathlib import Path
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.model_file import build
 
 
 def names() -> list[str]:
@@ -22,7 +21,7 @@ def names() -> list[str]:
 def load(spec: str) -> Model:
     """A specimen by name, or any model that `loading.load` knows."""
     if spec in names():
-        return build(spec, vars(importlib.import_module(f"{__name__}.{spec}")), {}, built_in=False)
+        return loading.build(spec, vars(importlib.import_module(f"{__name__}.{spec}")))
     known = loading.names()
     if spec not in known and not any(mark in spec for mark in (".py", "+")):
         raise UserError(

@@ -8,19 +8,15 @@ by a sum of squares.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from montecarlo_brdf.stability.specimens.textbook_ggx import visibility
+from montecarlo_brdf.stability.specimens.textbook_ggx import (
+    Params,
+    domain,
+    lobe,
+    same_as,
+    visibility,
+)
 from montecarlo_brdf.vectors import Vec, half_vector
-
-
-class Params(NamedTuple):
-    alpha: float = 0.3
-
-
-domain = {"alpha": (1e-4, 1.0)}
-lobe = ("half vector", lambda p: p.alpha)
-same_as = "ggx"
 
 
 def density(n_h: float, alpha: float) -> float:

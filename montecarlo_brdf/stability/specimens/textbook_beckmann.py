@@ -7,17 +7,9 @@ y^2)/z^2 of the unnormalised half vector, as `beckmann` does.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
+from montecarlo_brdf.stability.specimens.textbook_ggx import Params, domain, lobe
 from montecarlo_brdf.vectors import Vec, half_vector
-
-
-class Params(NamedTuple):
-    alpha: float = 0.3
-
-
-domain = {"alpha": (1e-4, 1.0)}
-lobe = ("half vector", lambda p: p.alpha)
 
 
 def density(n_h: float, alpha: float) -> float:

@@ -7,18 +7,10 @@ precision at n = 1e4, 1e5, 1e6. To ship: exp(n log1p(-d)) with d = |r - v|^2/2, 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
+from montecarlo_brdf.models.phong import Params, domain, lobe
 from montecarlo_brdf.vectors import Vec, clamped_cosine, mirrored
 
-
-class Params(NamedTuple):
-    ks: float = 1.0
-    n: float = 32.0
-
-
-domain = {"ks": (0.0, 1.0), "n": (0.0, 1e7)}
-lobe = ("mirror", lambda p: math.sqrt(2.0 / (p.n + 2.0)))
 same_as = "phong"
 
 
