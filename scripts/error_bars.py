@@ -27,8 +27,7 @@ from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity, second_moment
-from montecarlo_brdf.estimate.samplers import BLIND, integrand, query
-from montecarlo_brdf.estimate.subject import functions_of, subject_of
+from montecarlo_brdf.estimate.samplers import BLIND, functions_of, integrand, query, subject_of
 from montecarlo_brdf.judge.mean import CONFIRMING_POINTS, CONFIRMING_REPLICATES
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import from_degrees

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from montecarlo_brdf import loading
-from montecarlo_brdf.estimate.pointwise import Pointwise
+from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.model import Model
 
 AT_ONCE = 1 << 16  # evaluations per parameter set

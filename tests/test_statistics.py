@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from montecarlo_brdf import student
-from montecarlo_brdf.sampling.streams import stream
+from montecarlo_brdf.sampling.keys import stream
 from montecarlo_brdf.statistics import FLOOR, HIDDEN, Moments, estimate, merged, with_error
 
 PRINTED = [

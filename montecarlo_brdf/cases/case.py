@@ -7,9 +7,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from montecarlo_brdf.estimate.pointwise import Pointwise
+from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.model import Model, ParameterSet, channels
-from montecarlo_brdf.sampling.streams import stream
+from montecarlo_brdf.sampling.keys import stream
 from montecarlo_brdf.vectors import Vec, from_degrees
 
 if TYPE_CHECKING:

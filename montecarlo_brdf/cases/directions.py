@@ -10,7 +10,7 @@ import numpy as np
 
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
-from montecarlo_brdf.estimate import scattered
+from montecarlo_brdf.estimate.places import Rows
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     #: f or pdf of (n, 3) wo and wi
     Function = Callable[[Array, Array], Array]
     #: how far from right each of n pairs with parameters of its own is
-    Deviation = Callable[[Array, Array, scattered.Rows], Array]
+    Deviation = Callable[[Array, Array, Rows], Array]
 
 LAST = math.nextafter(0.5 * math.pi, 0.0)  # 90 degrees less an ulp: cos = 2.8e-16
 #: polar angles in radians: normal, next to it, ordinary, grazing, the last double before 90 degrees

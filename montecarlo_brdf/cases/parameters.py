@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from montecarlo_brdf.cases.case import Case, Parameters, search_range
-from montecarlo_brdf.estimate import scattered
+from montecarlo_brdf.estimate.places import Rows, parameter_rows
 from montecarlo_brdf.sampling.points import sobol
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def at(case: Case, t: dict[str, float]) -> Parameters:
     return case.one._replace(**changed)
 
 
-def rows(case: Case, t: Array) -> scattered.Rows:
+def rows(case: Case, t: Array) -> Rows:
     """Parameter sets as `at` makes them, for (n, free parameters) positions."""
     ranges = [search_range(case.model, n) for n in case.free]
     columns = {
@@ -58,7 +58,7 @@ def rows(case: Case, t: Array) -> scattered.Rows:
         for k, (n, ends) in enumerate(zip(case.free, ranges, strict=True))
         if ends
     }
-    return scattered.rows(case.model, columns, case.one, len(t))
+    return parameter_rows(case.model, columns, case.one, len(t))
 
 
 def position(case: Case, p: Parameters) -> dict[str, float]:

@@ -20,13 +20,13 @@ import numpy as np
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case, Parameters
 from montecarlo_brdf.cases.directions import MIRROR, vectors
-from montecarlo_brdf.estimate import scattered
+from montecarlo_brdf.estimate.places import Rows, mean_values, pair_values
 from montecarlo_brdf.estimate.quadrature import grid
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import samplers_of
 from montecarlo_brdf.sampling.directions import Sampler
+from montecarlo_brdf.sampling.keys import stream
 from montecarlo_brdf.sampling.spread import net, spread
-from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.vectors import Vec, from_degrees
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ class Space(NamedTuple):
         free = at[1 + self.turning :]
         return parameters.at(self.case, dict(zip(self.case.free, free, strict=True)))
 
-    def rows(self, at: Array) -> scattered.Rows:
+    def rows(self, at: Array) -> Rows:
         """The parameter sets of many places."""
         return parameters.rows(self.case, at[:, 1 + self.turning :])
 
@@ -137,17 +137,17 @@ def albedo(space: Space, of: Quantity) -> Value:
         own = Sampler.OWN in samplers_of(model, of)
         side = np.ones(len(w)) if own else _side(space, w, sets)
         places = np.concatenate([w, side[:, None]], axis=1)
-        found = scattered.mean_values(model, of, _nodes(space, of, stage), places, sets)
+        found = mean_values(model, of, _nodes(space, of, stage), places, sets)
         return np.where(np.isfinite(found), found, math.inf)
 
     return value
 
 
-def _side(space: Space, w: Array, sets: scattered.Rows) -> Array:
+def _side(space: Space, w: Array, sets: Rows) -> Array:
     """Where f has a lobe for w: 1 at its mirror direction, -1 at w itself, 0 at neither."""
 
     def f(other: Array) -> Array:
-        return scattered.pair_values(space.case.model, w, other, sets)
+        return pair_values(space.case.model, w, other, sets)
 
     retro, mirror = f(w), f(w * MIRROR)
     beside = np.maximum(*(f(np.tile(vectors(0.9, phi), (len(w), 1))) for phi in (1.0, 4.0)))

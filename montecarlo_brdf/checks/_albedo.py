@@ -10,8 +10,7 @@ from montecarlo_brdf.estimate import adaptive, trust
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity, second_moment
-from montecarlo_brdf.estimate.samplers import BLIND, integrand, samplers_of
-from montecarlo_brdf.estimate.subject import functions_of
+from montecarlo_brdf.estimate.samplers import BLIND, functions_of, integrand, samplers_of
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import Sampler

@@ -17,7 +17,7 @@ from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand, Quantity, integrand, sky_beside
-from montecarlo_brdf.estimate.subject import Subject
+from montecarlo_brdf.estimate.samplers import Subject
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import Sampler

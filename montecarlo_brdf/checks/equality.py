@@ -15,7 +15,7 @@ import numpy as np
 from montecarlo_brdf.cases import directions, parameters
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
 from montecarlo_brdf.checks._hints import dependence_named, moved_named, shape_named
-from montecarlo_brdf.estimate import scattered
+from montecarlo_brdf.estimate.places import Rows, pair_values, parameter_rows
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference, Skip, worst_of
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.loading import load
@@ -62,10 +62,10 @@ def claims(case: Case) -> Iterator[Claim]:
 
 
 def _worst(case: Case, other: Model) -> Exact:
-    def apart(wo: Array, wi: Array, sets: scattered.Rows) -> Array:
-        same = scattered.rows(other, sets.columns(other.Params), shared(other, case.one), len(wo))
-        ours = scattered.pair_values(case.model, wo, wi, sets)
-        return _relative(ours, scattered.pair_values(other, wo, wi, same))
+    def apart(wo: Array, wi: Array, sets: Rows) -> Array:
+        same = parameter_rows(other, sets.columns(other.Params), shared(other, case.one), len(wo))
+        ours = pair_values(case.model, wo, wi, sets)
+        return _relative(ours, pair_values(other, wo, wi, same))
 
     few = other.prepare is not None
     found = directions.subjects(case, case.random(NAME, "all"), apart, few)

@@ -18,7 +18,7 @@ import numpy as np
 
 from montecarlo_brdf.cases import directions, parameters
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
-from montecarlo_brdf.estimate import scattered
+from montecarlo_brdf.estimate.places import Rows, pair_values
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
@@ -57,8 +57,8 @@ def claims(case: Case) -> Iterator[Claim]:
 def _lowest(case: Case) -> Deviation:
     """How low f is at many pairs, each with parameters of its own; what is no number first."""
 
-    def lowest(wo: Array, wi: Array, sets: scattered.Rows) -> Array:
-        f = scattered.pair_values(case.model, wo, wi, sets)
+    def lowest(wo: Array, wi: Array, sets: Rows) -> Array:
+        f = pair_values(case.model, wo, wi, sets)
         return np.where(np.isfinite(f), -f, np.inf)
 
     return lowest

@@ -22,8 +22,7 @@ from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quadrature import integrate
 from montecarlo_brdf.estimate.quantity import Quantity
-from montecarlo_brdf.estimate.samplers import integrand, samplers_of, weighted
-from montecarlo_brdf.estimate.subject import subject_of
+from montecarlo_brdf.estimate.samplers import integrand, samplers_of, subject_of, weighted
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, Kind, MeanClaim, Reference, Skip
 from montecarlo_brdf.judge.finding import Bound

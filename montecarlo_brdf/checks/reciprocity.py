@@ -15,7 +15,7 @@ import numpy as np
 
 from montecarlo_brdf.cases import directions, parameters
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
-from montecarlo_brdf.estimate import scattered
+from montecarlo_brdf.estimate.places import Rows, pair_values
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference, worst_of
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
@@ -49,9 +49,9 @@ def worst(case: Case) -> Exact:
     """The worst pair over all parameter sets."""
     found = [_worst_of(case, p, case.random(NAME, k)) for k, p in enumerate(parameters.sets(case))]
 
-    def asymmetry(wo: Array, wi: Array, sets: scattered.Rows) -> Array:
-        there = scattered.pair_values(case.model, wo, wi, sets)
-        return _relative(there, scattered.pair_values(case.model, wi, wo, sets))
+    def asymmetry(wo: Array, wi: Array, sets: Rows) -> Array:
+        there = pair_values(case.model, wo, wi, sets)
+        return _relative(there, pair_values(case.model, wi, wo, sets))
 
     if case.free:
         p, pair = directions.worst_pair(case, case.random(NAME, "everywhere"), asymmetry)

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf import checks, loading
 from montecarlo_brdf.cli._options import numbers, parameter_sets
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.estimate.plan import check_theta
 from montecarlo_brdf.judge.finding import Policy, Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.text import called

@@ -17,8 +17,14 @@ from montecarlo_brdf.estimate.ascent import FIRST, Ascent, Method, Setting, look
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity
-from montecarlo_brdf.estimate.samplers import charts_of, integrand, query, samplers_of
-from montecarlo_brdf.estimate.subject import functions_of, identity_of
+from montecarlo_brdf.estimate.samplers import (
+    charts_of,
+    functions_of,
+    identity_of,
+    integrand,
+    query,
+    samplers_of,
+)
 from montecarlo_brdf.model import Model, ParameterSet, channels
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.sampling.points import SETS

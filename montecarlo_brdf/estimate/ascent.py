@@ -21,8 +21,8 @@ from montecarlo_brdf.estimate.moments import STATE, kernel_of, template_of
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.sampling.directions import PROBES, Sampler
+from montecarlo_brdf.sampling.keys import stream
 from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
-from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.statistics import FLOOR
 from montecarlo_brdf.vectors import Vec
 

@@ -8,12 +8,10 @@ from typing import Any
 from montecarlo_brdf.compile.bind import Function
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import adaptive, quantity
-from montecarlo_brdf.estimate.arguments import check_subject, check_theta
 from montecarlo_brdf.estimate.evaluate import estimates, evaluate
-from montecarlo_brdf.estimate.plan import REPLICATES, Plan
+from montecarlo_brdf.estimate.plan import REPLICATES, Plan, check_subject, check_theta
 from montecarlo_brdf.estimate.quantity import Quantity
-from montecarlo_brdf.estimate.samplers import BLIND, charts_of, integrand, samplers_of
-from montecarlo_brdf.estimate.subject import Subject
+from montecarlo_brdf.estimate.samplers import BLIND, Subject, charts_of, integrand, samplers_of
 from montecarlo_brdf.model import Model, NoParams, ParameterSet
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate

@@ -8,14 +8,12 @@ from typing import Any
 from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import moments, work
-from montecarlo_brdf.estimate.arguments import check_samples
-from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan, check_samples
 from montecarlo_brdf.estimate.quantity import Integrand
-from montecarlo_brdf.estimate.samplers import query
-from montecarlo_brdf.estimate.subject import Subject, subject_of
+from montecarlo_brdf.estimate.samplers import Subject, query, subject_of
 from montecarlo_brdf.model import Model, ParameterSet
+from montecarlo_brdf.sampling.keys import stream
 from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
-from montecarlo_brdf.sampling.streams import stream
 from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import Vec
 

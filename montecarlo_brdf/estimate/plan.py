@@ -1,16 +1,20 @@
-"""How an estimate is sampled."""
+"""How an estimate is sampled, and the arguments of it that come from users: checked once."""
 
 from __future__ import annotations
 
+import math
 from enum import StrEnum
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate import work
+from montecarlo_brdf.model import Model
 
 if TYPE_CHECKING:
     from montecarlo_brdf.estimate.partial_sums import PartialSums
 
 REPLICATES = 16
+MOST_SAMPLES = 1 << 40
 
 
 class Choice(StrEnum):
@@ -33,3 +37,33 @@ class Plan(NamedTuple):
     method: str = Choice.GIVEN  # AUTO also without a target
     sums: PartialSums | None = None  # where long jobs keep how far they are
     effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at
+
+
+def check_samples(samples: Any) -> int:
+    """A number of samples between 1 and 2^40, or a UserError."""
+    if (
+        isinstance(samples, bool)
+        or not isinstance(samples, int)
+        or not 1 <= samples <= MOST_SAMPLES
+    ):
+        raise UserError(f"samples must be a whole number from 1 to 2^40, not {samples}")
+    return samples
+
+
+def check_subject(model: Any, p: Any) -> None:
+    """Raise UserError unless these are a model and a parameter set of such."""
+    if not isinstance(model, Model):
+        raise UserError(f"model must be a Model, as load({model!r}) gives it, not {model!r}")
+    if not (isinstance(p, tuple) and hasattr(p, "_fields")):
+        raise UserError(f"p must be what model.parameters(...) gives, not {p!r}")
+
+
+def check_theta(theta_deg: Any, name: str = "theta_o_deg") -> float:
+    """A polar angle in [0, 90) degrees, or a UserError."""
+    try:
+        theta = float(theta_deg)
+    except (TypeError, ValueError):
+        theta = math.nan
+    if not 0.0 <= theta < 90.0:
+        raise UserError(f"{name} must be an angle in [0, 90) degrees, not {theta_deg}")
+    return theta

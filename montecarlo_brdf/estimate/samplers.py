@@ -1,13 +1,13 @@
-"""The samplers and charts that a model offers, and the integrands that stand for them."""
+"""A model as an integral: its functions, samplers and charts, and the integrands made of them."""
 
 from __future__ import annotations
 
 import functools
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.estimate import probe, quantity
 from montecarlo_brdf.estimate.quantity import Integrand, Quantity
-from montecarlo_brdf.estimate.subject import functions_of
-from montecarlo_brdf.model import Model, ParameterSet, channels
+from montecarlo_brdf.model import Model, ParameterSet, Prepared, channels
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec
 
@@ -53,3 +53,26 @@ def query(model: Model, p: ParameterSet, fixed: Vec) -> tuple[float, ...]:
     if model.lobe is None or lobe_chart(model) is None:
         return (*fixed, 0.0)
     return (*fixed, min(float(model.lobe.width(one)) for one in channels(p)))
+
+
+class Subject(NamedTuple):
+    """What is integrated: a name for its streams, and K parameter sets."""
+
+    identity: tuple[str, ...]
+    sets: list[Prepared]
+
+
+def subject_of(model: Model, p: ParameterSet) -> Subject:
+    """A model with one parameter set, colours channel by channel."""
+    return Subject(identity_of(model, p), [model.prepared(c) for c in channels(p)])
+
+
+def identity_of(model: Model, p: ParameterSet) -> tuple[str, ...]:
+    """What tells a case's stream from others."""
+    return (model.name, *model.picks.values(), *map(repr, p))
+
+
+def functions_of(model: Model) -> dict[str, Any]:
+    """The functions that a model has, by the names under which integrands call them."""
+    bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
+    return {k: v for k, v in bound.items() if v is not None}

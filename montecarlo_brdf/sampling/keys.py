@@ -1,5 +1,11 @@
-"""Keys: the 64-bit words that stand for randomisations, from which every coordinate is hashed."""
+"""Keys: the 64-bit words that stand for randomisations, from which every coordinate is hashed.
+
+A stream's key is made from what is computed, never from the order in which it is computed: adding a
+model or skipping a check changes no other number.
+"""
 from __future__ import annotations
+
+import hashlib
 
 from montecarlo_brdf.bits import GOLDEN, mix64, u64
 
@@ -17,3 +23,9 @@ def replicate_key(key: int, replicate: int) -> int:
 def axis_key(key: int, axis: int) -> int:
     """The key of one coordinate."""
     return mix64(u64(key + axis * u64(0xD1342543DE82EF95) + u64(0x632BE59BD9B4E019)))
+
+
+def stream(seed: int, *names: object) -> int:
+    """The key of the stream named by `names` under a seed."""
+    text = "\x1f".join(map(str, (seed, *names)))
+    return int.from_bytes(hashlib.blake2b(text.encode(), digest_size=8).digest(), "little")

@@ -12,8 +12,7 @@ from montecarlo_brdf.estimate import probe, trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
-from montecarlo_brdf.estimate.samplers import weighted
-from montecarlo_brdf.estimate.subject import Subject, functions_of
+from montecarlo_brdf.estimate.samplers import Subject, functions_of, weighted
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model, ParameterSet, Prepared
 from montecarlo_brdf.sampling.points import DIMENSIONS

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.estimate.plan import check_theta
 from montecarlo_brdf.model import Model, ParameterSet, channels
 from montecarlo_brdf.scene.colour import Band, Colour, illuminant_table, pairs, spread
 from montecarlo_brdf.scene.environment import read_sky, short_sky

@@ -12,8 +12,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.estimate.pointwise import Pointwise
-from montecarlo_brdf.sampling.streams import stream
+from montecarlo_brdf.estimate.places import Pointwise
+from montecarlo_brdf.sampling.keys import stream
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.angle_table import tabulated
 from montecarlo_brdf.scene.pixels import means

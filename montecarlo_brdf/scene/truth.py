@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from montecarlo_brdf.estimate.pointwise import Pointwise
+from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.judge.claim import Kind, Reference
 from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.references import _irradiance

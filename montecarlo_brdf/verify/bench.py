@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import probe
-from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.estimate.estimators import directional_albedo
+from montecarlo_brdf.estimate.plan import check_theta
 from montecarlo_brdf.estimate.samplers import charts_of, samplers_of
 from montecarlo_brdf.judge.finding import versions
 from montecarlo_brdf.model import Model

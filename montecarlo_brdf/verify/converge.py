@@ -17,10 +17,9 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws, _truth
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.estimate.arguments import check_theta
 from montecarlo_brdf.estimate.estimators import directional_albedo
 from montecarlo_brdf.estimate.evaluate import estimates
-from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan, check_theta
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import charts_of, integrand, samplers_of
 from montecarlo_brdf.judge.claim import Kind, Reference, Slope, SlopeClaim

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import furnace as check
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.estimate.arguments import check_theta
+from montecarlo_brdf.estimate.plan import check_theta
 from montecarlo_brdf.estimate.samplers import SAMPLERS, samplers_of
 from montecarlo_brdf.files import check_writable, write_text
 from montecarlo_brdf.judge.finding import Report

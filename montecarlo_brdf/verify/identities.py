@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity, integrand
-from montecarlo_brdf.estimate.subject import Subject
+from montecarlo_brdf.estimate.samplers import Subject
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, MeanClaim, Reference
 from montecarlo_brdf.judge.finding import Bound, Report, Result

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.errors import TooSlow, UserError, unknown
 from montecarlo_brdf.estimate import adaptive, probe
-from montecarlo_brdf.estimate.arguments import check_samples
-from montecarlo_brdf.estimate.plan import Choice, Plan
+from montecarlo_brdf.estimate.plan import Choice, Plan, check_samples
 from montecarlo_brdf.judge.claim import Claim
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict

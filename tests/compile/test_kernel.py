@@ -18,7 +18,7 @@ from montecarlo_brdf.compile.kernel import Kernel
 from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.estimate import moments
-from montecarlo_brdf.estimate.pointwise import Pointwise
+from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand
 

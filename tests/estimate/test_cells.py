@@ -10,7 +10,7 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks._cells import CELLS, COARSE, Cells
 from montecarlo_brdf.checks.sampling import judged
 from montecarlo_brdf.estimate.cells import COLUMNS, ROWS, placed, tabulated
-from montecarlo_brdf.estimate.pointwise import Pointwise
+from montecarlo_brdf.estimate.places import Pointwise
 
 
 def by_numpy(cells: Cells, w: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from cases import IDS, VARIANTS, corners, made, usual
 
-from montecarlo_brdf.estimate.pointwise import Pointwise
+from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.vectors import from_degrees
 
 #: Only these choices change how a model samples.

@@ -18,7 +18,7 @@ from montecarlo_brdf import load
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import second_moment
-from montecarlo_brdf.estimate.subject import functions_of
+from montecarlo_brdf.estimate.samplers import functions_of
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import from_degrees
 

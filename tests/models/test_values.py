@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from cases import IDS, VARIANTS, corners, edge_pairs, made, random_directions, usual
 
-from montecarlo_brdf.estimate.pointwise import Pointwise
+from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.vectors import from_degrees
 

@@ -1,14 +1,16 @@
-"""A model at many places at once, each with a direction and parameters of its own: for searches.
+"""A model at many places in one call: compiled, for checks and searches that look at many values.
 
-A mean estimated place by place spends its time between the calls. Here one call takes thousands of
-places, and the same nodes u serve all of them: differences between places are not noise.
+`Pointwise` is a model with one parameter set on arrays of directions, (n, 3), one unit vector per
+row. For searches every place has parameters of its own: a mean estimated place by place spends its
+time between the calls; here one call takes thousands of places, and the same nodes u serve all of
+them, so that differences between places are not noise.
 """
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
+from montecarlo_brdf.compile.bind import Function, Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import (
     Buffer,
@@ -17,29 +19,101 @@ from montecarlo_brdf.compile.layout import (
     Unpack,
     following,
     numbers_of,
+    pack,
     shape_of,
 )
 from montecarlo_brdf.estimate.quantity import Quantity
-from montecarlo_brdf.estimate.samplers import integrand, samplers_of
+from montecarlo_brdf.estimate.samplers import integrand, samplers_of, weighted
 from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.sampling.directions import Sampler
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]
 
 PARAMETERS: Any = hole()
 INTEGRAND: Any = hole()
 FUNCTION: Any = hole()
+WRITE: Any = hole()
 ROW: Any = hole()
 LINE: Any = hole()
 
+DRAWN = 4  # numbers per draw: x, y, z and the weight, NaN if the sampler returns none
 NODE = 4  # numbers of a node: u[0], u[1], u[4] and its weight
 PLACE = 4  # numbers of a place before its parameters: a direction and what the integrand needs
 CHUNK = 1024  # nodes of a call
 TOGETHER = 256  # nodes in each LINE
+
+
+def values(ints: Ints, reals: Reals, out: Out) -> None:
+    """out[j] = FUNCTION(wo_j, wi_j, p); ints = (n, place of the first direction)."""
+    p = PARAMETERS(reals)[0]
+    for j in range(ints[0]):
+        at = ints[1] + 6 * j
+        wo = (reals[at], reals[at + 1], reals[at + 2])
+        out[j] = FUNCTION(wo, (reals[at + 3], reals[at + 4], reals[at + 5]), p)
+
+
+def draws(ints: Ints, reals: Reals, out: Out) -> None:
+    """out[4 j ...] = FUNCTION(wo_j, u_j, p), a drawn direction and its weight."""
+    p = PARAMETERS(reals)[0]
+    for j in range(ints[0]):
+        at = ints[1] + 6 * j
+        wo = (reals[at], reals[at + 1], reals[at + 2])
+        u = (reals[at + 3], reals[at + 4], reals[at + 5])
+        WRITE(FUNCTION(wo, u, p), out, DRAWN * j)
+
+
+def write_direction(w: Sequence[float], out: Out, at: int) -> None:
+    """A sampler that returns (x, y, z)."""
+    out[at], out[at + 1], out[at + 2] = w[0], w[1], w[2]
+
+
+def write_weighted(w: Sequence[float], out: Out, at: int) -> None:
+    """A sampler that returns (x, y, z, weight)."""
+    out[at], out[at + 1], out[at + 2], out[at + 3] = w[0], w[1], w[2], w[3]
+
+
+class Pointwise:
+    """f, sample and pdf of a model with one parameter set, on arrays."""
+
+    def __init__(self, model: Model, p: ParameterSet) -> None:
+        self.model = model.of(p)
+        layout, self._numbers = pack([self.model.prepared(p)], 0)
+        self._unpack = Unpack(layout)
+
+    def f(self, wo: ArrayLike, wi: ArrayLike) -> Array:
+        """f(wo, wi) in 1/sr: (n,) values for (n, 3) directions; wo or wi may be a single one."""
+        return self._run(values, wo, wi, 1, FUNCTION=self.model.f)[:, 0]
+
+    def pdf(self, wo: ArrayLike, wi: ArrayLike) -> Array:
+        """pdf(wo, wi) in 1/sr."""
+        return self._run(values, wo, wi, 1, FUNCTION=self.model.pdf)[:, 0]
+
+    def sample(self, wo: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
+        """Directions (n, 3) drawn for numbers u (n, 3), and their weights, NaN where none is
+        returned."""
+        write = write_weighted if weighted(self.model) else write_direction
+        out = self._run(draws, wo, u, DRAWN, FUNCTION=self.model.sample, WRITE=write)
+        return out[:, :3], out[:, 3]
+
+    def _run(
+        self, template: Function, a: ArrayLike, b: ArrayLike, width: int, **names: object
+    ) -> Array:
+        import numpy as np
+
+        call = kernel(self.model.name, template, PARAMETERS=self._unpack, **names)
+        a, b = np.atleast_2d(a), np.atleast_2d(b)
+        many, before = len(b) if len(a) == 1 else len(a), len(self._numbers)
+        data = np.empty(before + 6 * many)
+        pairs = data[before:].reshape(many, 6)
+        data[:before], pairs[:, :3], pairs[:, 3:] = self._numbers, a, b
+        out = np.full((many, width), np.nan)
+        for k, count in call.pieces(many):
+            call.on([count, before + 6 * k], data, out[k:])
+        return out
 
 
 def means(ints: Ints, reals: Reals, out: Out) -> None:
@@ -89,7 +163,7 @@ class Rows(NamedTuple):
         return self.base._make(map(float, self.values[k]))
 
 
-def rows(model: Model, columns: Mapping[str, Any], base: ParameterSet, n: int) -> Rows:
+def parameter_rows(model: Model, columns: Mapping[str, Any], base: ParameterSet, n: int) -> Rows:
     """n parameter sets: `base` with the columns of n numbers in place of some fields.
 
     A model that prepares its parameters does so once per different set.
