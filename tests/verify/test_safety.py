@@ -19,6 +19,8 @@ from conftest import Outcome
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks, load
+from montecarlo_brdf.compile.bind import bound
+from montecarlo_brdf.compile.kernel import Kernel
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.estimate import work
 from montecarlo_brdf.estimate.estimators import directional_albedo
@@ -191,10 +193,8 @@ def test_cuts_never_show(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_calls_of_a_slow_kernel_are_short(pace: float, most: int) -> None:
     """Whole blocks of one replicate or whole replicates, every sample once."""
 
-    def kernel(ints: Any, reals: Any, out: Any) -> int:
-        return 0
-
-    kernel.pace = pace  # type: ignore[attr-defined]
+    kernel = Kernel(bound(int), "mine")
+    kernel.pace = pace
     ladder = work.Ladder(kernel, (0.0,), 1, key=1, replicates=3)
     pieces = list(ladder._pieces(5000))
     assert all(many * size <= most and done % BLOCK == 0 for _, many, done, size in pieces)
