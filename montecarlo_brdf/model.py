@@ -9,6 +9,7 @@ The names and their meaning: docs/models.md.
 from __future__ import annotations
 
 import math
+import re
 from collections import namedtuple
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -109,6 +110,16 @@ class Model:
     terms: tuple[Term, ...] = ()  # of a mixture
     namespace: Mapping[str, Any] = field(default_factory=dict, repr=False)
     rebuild: Callable[[Mapping[str, str]], Model] | None = field(default=None, repr=False)
+
+    @property
+    def identity(self) -> str:
+        """The name without folders: what is drawn for a file does not depend on where it lies."""
+        if not self.terms:
+            return self.name if self.built_in else re.split(r"[/\\]", self.name)[-1]
+        name = self.name
+        for term in self.terms:
+            name = name.replace(term.model.name, term.model.identity)
+        return name
 
     def variant(self, **picks: str) -> Model:
         """The same model with other choices; the rest keep their current pick.

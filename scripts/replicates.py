@@ -41,7 +41,7 @@ def means(q: Question, points: str, count: int, seed: int = 0, each: int = EACH)
     count)."""
     layout, numbers = pack(q.subject.sets, moments.QUERY)
     suited = [i.for_lattice() if points == "lattice" else i for i in q.integrands]
-    entry = moments.kernel_of(q.subject.identity[0], points, suited, layout)
+    entry = moments.kernel_of(q.subject.name, points, suited, layout)
     reals = (*(*q.fixed, 0.0)[: moments.QUERY], *numbers)
     key = stream(seed, points, *q.subject.identity, *q.label, *q.fixed)
     shape = SHAPES[points](each) if points in SHAPES else NONE

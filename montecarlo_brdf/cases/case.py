@@ -56,7 +56,7 @@ class Case(NamedTuple):
         """A NumPy generator for a purpose, from the seed and what it is for."""
         import numpy as np
 
-        return np.random.default_rng(stream(self.seed, self.model.name, *names))
+        return np.random.default_rng(stream(self.seed, self.model.identity, *names))
 
     def tolerated(self, default: float) -> float:
         """The tolerance asked for, or the claim's own."""

@@ -168,7 +168,7 @@ def deficit(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     """
     place = (theta, case.phi_o_deg, *case.one)
     rng = np.random.default_rng(
-        stream(plan.seed, case.model.name, NAME, "Jacobian", *place, plan.samples)
+        stream(plan.seed, case.model.identity, NAME, "Jacobian", *place, plan.samples)
     )
     each = -(-plan.samples // REPLICATES)
     ratio = _ratio(case, theta, _inner(rng, each * REPLICATES))[0]

@@ -71,7 +71,8 @@ def side_of(model: Model, one: Parameters, wo: Vec) -> float:
 def _measured(
     model: Model, one: Parameters, place: Place, mean: Integrand, seed: int
 ) -> Measurement:
-    subject = Subject((model.name, *map(repr, one)), [model.prepared(one)])
+    identity = (model.identity, *map(repr, one))
+    subject = Subject(model.name, identity, [model.prepared(one)])
     e = evaluate(subject, place, [mean], Plan(samples=SAMPLES, seed=seed), (NAME,))[0][0]
     few = e.effective_samples() < trust.FEWEST
     return Measurement(NAME, e, "a lobe where half vectors do not show it" if few else None)

@@ -110,7 +110,7 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
         return Fit(math.nan, math.inf, 1.0, 0, hidden)
     n = min(math.ceil(DRAWS * plan.samples), case.budget(MOST))
     place = (theta, case.phi_o_deg, *case.one)
-    key = stream(plan.seed, case.model.name, NAME, *place, n)
+    key = stream(plan.seed, case.model.identity, NAME, *place, n)
     counts, expected = cells.counts(key, n, plan.threads), cells.probability
     if counts[-1] < UNSURE * n and not cells.rejects:  # so few are a question for `pdf`
         counts[-1] = expected[-1] = 0.0

@@ -156,6 +156,7 @@ def hemisphere_integral(
     """
     if sampler not in BLIND:
         raise UserError(unknown("sampler", sampler, BLIND))
-    subject = Subject((function.__qualname__, *map(repr, p)), [p])
+    name = function.__qualname__
+    subject = Subject(name, (name, *map(repr, p)), [p])
     mean = quantity.integrand(Quantity.HEMISPHERE, Sampler(sampler), {"F": function})
     return evaluate(subject, (0.0, 0.0, 1.0), [mean], plan, ("hemisphere", sampler))[0][0]

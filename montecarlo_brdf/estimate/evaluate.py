@@ -53,7 +53,7 @@ def evaluate(
     rows = []
     for group in _groups(subject.sets, len(suited)):
         layout, numbers = pack(group, moments.QUERY)
-        kernel = moments.kernel_of(subject.identity[0], plan.points, suited, layout)
+        kernel = moments.kernel_of(subject.name, plan.points, suited, layout)
         width = len(group) * len(suited)
         reals = (*(*fixed, 0.0)[: moments.QUERY], *numbers)
         shape = SHAPES[plan.points](per_replicate) if plan.points in SHAPES else NONE

@@ -56,20 +56,21 @@ def query(model: Model, p: ParameterSet, fixed: Vec) -> tuple[float, ...]:
 
 
 class Subject(NamedTuple):
-    """What is integrated: a name for its streams, and K parameter sets."""
+    """What is integrated, as errors call it and as its streams are named, and K parameter sets."""
 
+    name: str
     identity: tuple[str, ...]
     sets: list[Prepared]
 
 
 def subject_of(model: Model, p: ParameterSet) -> Subject:
     """A model with one parameter set, colours channel by channel."""
-    return Subject(identity_of(model, p), [model.prepared(c) for c in channels(p)])
+    return Subject(model.name, identity_of(model, p), [model.prepared(c) for c in channels(p)])
 
 
 def identity_of(model: Model, p: ParameterSet) -> tuple[str, ...]:
     """What tells a case's stream from others."""
-    return (model.name, *model.picks.values(), *map(repr, p))
+    return (model.identity, *model.picks.values(), *map(repr, p))
 
 
 def functions_of(model: Model) -> dict[str, Any]:

@@ -141,8 +141,10 @@ def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str |
     }
     template = bound(integrands.BY_METHOD[method_name(work)], **functions)
     mean = Integrand(template, (), None, DIMENSIONS, periodic=False)
+    lit = (f"{p!r} {skies.identity(s)}" for p, s in work.sets)
     subject = Subject(
-        (model.name, *model.picks.values(), *(f"{p!r} {skies.identity(s)}" for p, s in work.sets)),
+        model.name,
+        (model.identity, *model.picks.values(), *lit),
         [Lit(model.prepared(p), shape) for p, shape in work.sets],
     )
     rows = evaluate(subject, wo, [mean], sampling, ("radiance", work.method))

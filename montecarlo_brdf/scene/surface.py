@@ -47,7 +47,7 @@ def lobes_of(model: Model, p: ParameterSet, weights: Colour, count: int) -> list
     sets = spread(tuple(channels(p)), count)
     model = model.of(p)
     if not model.terms:
-        return [Lobe(model.name, weights, model, sets)]
+        return [Lobe(model.identity, weights, model, sets)]
     found = []
     for term in model.terms:
         own = [getattr(s, f"{term.prefix}_weight") for s in sets]

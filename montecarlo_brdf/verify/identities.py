@@ -136,7 +136,7 @@ def claims(tolerance: float) -> Iterator[MeanClaim]:
 
 
 def _measure(identity: Identity, plan: Plan) -> list[Measurement]:
-    subject = Subject((NAME, identity.quantity), [identity.p])
+    subject = Subject(NAME, (NAME, identity.quantity), [identity.p])
     mean = integrand(identity.of, identity.sampler, {"F": identity.function})
     row = evaluate(subject, identity.fixed, [mean], plan, (NAME,))[0]
     return [Measurement(identity.sampler, row[0])]

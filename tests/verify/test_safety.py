@@ -205,3 +205,19 @@ def test_calls_of_a_slow_kernel_are_short(pace: float, most: int) -> None:
         for i in range(done, done + size)
     ]
     assert samples == [(r, i) for r in range(3) for i in range(5000)]
+
+
+def test_where_a_file_lies_never_shows(tmp_path: Path) -> None:
+    """The same file in another folder gives the same numbers, alone and within a mixture."""
+    text = "def f(wo, wi, p):\n    return 0.1 + 0.1 * wi[2]\n"
+    found = []
+    for folder in (tmp_path / "here", tmp_path / "over_there"):
+        folder.mkdir()
+        (folder / "tinted.py").write_text(text)
+        mixed = f"0.5 {folder / 'tinted.py'} + 0.5 lambert"
+        models = (str(folder / "tinted.py"), mixed)
+        runs = [mb.furnace(mb.load(m), samples=1 << 12, theta_o_deg=60.0) for m in models]
+        runs.append(mb.run(mb.load(models[0]), samples=1 << 12, names=("positivity", "energy")))
+        findings = [f for r in runs for result in r.results for f in result.findings]
+        found.append([(f.quantity, f.value, f.stderr, f.verdict) for f in findings])
+    assert repr(found[0]) == repr(found[1])
