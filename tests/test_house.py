@@ -21,6 +21,7 @@ from montecarlo_brdf.judge.claim import Kind
 from montecarlo_brdf.judge.finding import Bound, Verdict
 from montecarlo_brdf.model import Property
 from montecarlo_brdf.sampling.directions import Sampler
+from montecarlo_brdf.sampling.points import PointSet
 
 PACKAGE = Path(montecarlo_brdf.__file__).parent
 ROOT = PACKAGE.parent
@@ -38,11 +39,12 @@ STEERING: dict[str, tuple[type[StrEnum], ...]] = {
     "PROPERTY": (Property,),
     "sampler": (Sampler,),
     "chart": (Sampler,),
+    "points": (PointSet,),
 }
 
 
 def steered(source: str) -> list[str]:
-    """Comparisons of a verdict, bound, kind, property or sampler with a word in quotes."""
+    """Comparisons of a verdict, a sampler or another such thing with a word in quotes."""
     nodes = list(ast.walk(ast.parse(source)))
     compared = [(n, [n.left, *n.comparators]) for n in nodes if isinstance(n, ast.Compare)]
     asked = [(n, [n.func.value, *n.args]) for n in nodes if _asks_for_a_part(n)]

@@ -27,7 +27,7 @@ from montecarlo_brdf.estimate.samplers import (
 )
 from montecarlo_brdf.model import Model, ParameterSet, channels
 from montecarlo_brdf.sampling.directions import Sampler
-from montecarlo_brdf.sampling.points import SETS
+from montecarlo_brdf.sampling.points import SETS, PointSet
 from montecarlo_brdf.statistics import Estimate, estimates_of
 from montecarlo_brdf.vectors import Vec
 
@@ -144,12 +144,13 @@ def methods(model: Model) -> list[Method]:
     for chart in charts_of(model)[:1]:
         kinked = chart is Sampler.PANELS
         what = "kinks" if kinked else f"{chart.replace('_', '-')} lobe"
-        found.append(Method(chart, "lattice", f"the model declares its {what}"))
+        found.append(Method(chart, PointSet.LATTICE, f"the model declares its {what}"))
     if not found:
-        found.append(Method(Sampler.COSINE, "lattice", "the model declares no lobe and no kinks"))
+        why = "the model declares no lobe and no kinks"
+        found.append(Method(Sampler.COSINE, PointSet.LATTICE, why))
     if Sampler.OWN in samplers_of(model):
-        found.append(Method(Sampler.OWN, "sobol", "its own sampler sees every lobe"))
-    return [*found, Method(Sampler.COSINE, "sobol", "nothing better fits")]
+        found.append(Method(Sampler.OWN, PointSet.SOBOL, "its own sampler sees every lobe"))
+    return [*found, Method(Sampler.COSINE, PointSet.SOBOL, "nothing better fits")]
 
 
 def given(model: Model, sampler: str, points: str) -> Method:
@@ -173,7 +174,7 @@ def prepare(model: Model, p: ParameterSet, kind: object, method: Method) -> Sett
     """Kernel and numbers of a case. `kind` keeps equal tuples of different variants apart."""
     layout, numbers = pack([model.prepared(c) for c in channels(p)], moments.QUERY)
     mean = integrand(model, Quantity.ALBEDO, method.sampler)
-    mean = mean.for_lattice() if method.points == "lattice" else mean
+    mean = mean.for_lattice() if method.points == PointSet.LATTICE else mean
     probe = quantity.probe_of(method.sampler, functions_of(model))
     identity = (method.points, *identity_of(model, p), "albedo")
     return Setting(

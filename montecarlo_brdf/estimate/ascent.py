@@ -22,7 +22,7 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.sampling.directions import PROBES, Sampler
 from montecarlo_brdf.sampling.keys import stream
-from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
+from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES, PointSet
 from montecarlo_brdf.statistics import FLOOR
 from montecarlo_brdf.vectors import Vec
 
@@ -31,7 +31,8 @@ FINE, FIRST_FINE = 1e-5, 256  # and where the target is finer than that: less ha
 # of lattices; then powers of 2
 LATTICES, LATTICES_FINE = (64, 144, 448, 648, 1024), (144, 448, 648, 1024)
 FALL, LATTICES_FALL = 32.0, 1000.0  # the most that an error was seen to fall between sizes
-MOST = {"lattice": 20, "sobol": 20, "stratified": 20, "independent": 22}  # log2, the last look
+#: log2 of the samples of the last look
+MOST: dict[str, int] = {**dict.fromkeys(PointSet, 20), PointSet.INDEPENDENT: 22}
 #: A sampler's weight may be 0 once in a million draws (a rejected direction) and 1 otherwise: until
 #: one was seen all replicates agree. An event of probability `target` stays unseen in
 #: SEEN/target samples with chance e^-SEEN. A probed chart has no such events.
@@ -196,7 +197,7 @@ class Ascent:
         self._key = stream(plan.seed, setting.identity, *wo)
         self._ints = array("q", template)
         self._ints[0] = self._key - (self._key >> 63 << 64)
-        fall = LATTICES_FALL if setting.method.points == "lattice" else FALL
+        fall = LATTICES_FALL if setting.method.points == PointSet.LATTICE else FALL
         self._reals = array("d", (*reals, target, fewest, hopeless, fall, *steps))
         channels = setting.channels
         self._end = STATE * channels * plan.replicates
@@ -261,7 +262,7 @@ def _table(
     factors of their widths."""
     last = min(1 << MOST[points], SETS[points][0])
     first = FIRST_FINE if fine else FIRST
-    start = (LATTICES_FINE if fine else LATTICES) if points == "lattice" else (first,)
+    start = (LATTICES_FINE if fine else LATTICES) if points == PointSet.LATTICE else (first,)
     sizes = (*start, *(1 << k for k in range(start[-1].bit_length(), last.bit_length())))
     sizes = tuple(size for size in sizes if size >= fewest) or (last,)
     ints = [0, 0, many, 0, 0, *NONE, at, 0, 0, 0, len(sizes)]

@@ -13,7 +13,7 @@ from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.estimate.samplers import Subject, query, subject_of
 from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.sampling.keys import stream
-from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES
+from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES, PointSet
 from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import Vec
 
@@ -49,7 +49,7 @@ def evaluate(
     per_replicate = _per_replicate(plan, replicates)
     place = () if common else fixed
     key = stream(plan.seed, plan.points, *subject.identity, *label, *place)
-    suited = [i.for_lattice() if plan.points == "lattice" else i for i in integrands]
+    suited = [i.for_lattice() if plan.points == PointSet.LATTICE else i for i in integrands]
     rows = []
     for group in _groups(subject.sets, len(suited)):
         layout, numbers = pack(group, moments.QUERY)

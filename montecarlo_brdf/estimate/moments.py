@@ -194,7 +194,7 @@ def _names(points: str, integrands: Sequence[Integrand], layout: Layout) -> dict
 def _point_set(points: str, integrands: Sequence[Integrand]) -> Function:
     """The points; of Sobol's only the coordinates that the integrands use."""
     used = max(i.coordinates for i in integrands)
-    if points == "sobol" and used < point_sets.DIMENSIONS:
+    if points == point_sets.PointSet.SOBOL and used < point_sets.DIMENSIONS:
         return point_sets.sobol_plane if used > 2 else point_sets.sobol_pair
     found: Function = getattr(point_sets, points)
     return found

@@ -18,6 +18,8 @@ from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Kind, MeanClaim, Reference
 from montecarlo_brdf.judge.finding import Bound, Finding, Verdict
 from montecarlo_brdf.judge.hint import hint
+from montecarlo_brdf.sampling.directions import Sampler
+from montecarlo_brdf.sampling.points import PointSet
 from montecarlo_brdf.statistics import FLOOR
 
 FIRST_LOOK = 1 << 14
@@ -28,7 +30,7 @@ CONFIRMING_REPLICATES = 64
 #: As precise as the look, so that what it resolved can be confirmed, and independent of it, so that
 #: the probabilities of both being wrong multiply. Lattices are not asked: where one mode dominates,
 #: the tails of few shifts are not those of Student's t.
-CONFIRMING_POINTS = "sobol"
+CONFIRMING_POINTS = PointSet.SOBOL
 #: estimators that use nothing of a model but its f
 OF_F_ALONE = ("uniform", "cosine")
 #: how often a deviation of the size `resolves` may escape
@@ -290,7 +292,7 @@ def _finding(
 def _hint(claim: MeanClaim, value: float, opinions: Opinions) -> str | None:
     found = [(o.measurement.estimator, o.measurement.estimate.mean) for o in opinions]
     # where only the model's own draws spoil the mean it is rather the pdf that they are divided by
-    others = [v for name, v in found if name != "own"]
+    others = [v for name, v in found if name != Sampler.OWN]
     return hint(claim, value, only_own=bool(others) and all(map(math.isfinite, others)))
 
 

@@ -7,6 +7,7 @@ that a kernel does not use cost nothing: the compiler removes them.
 from __future__ import annotations
 
 from collections.abc import Callable
+from enum import StrEnum
 
 from montecarlo_brdf.sampling.independent import independent, independent_axis
 from montecarlo_brdf.sampling.keys import NONE, Point, Shape, axis_key, replicate_key
@@ -23,20 +24,34 @@ from montecarlo_brdf.sampling.sobol import (
 from montecarlo_brdf.sampling.stratified import grid, stratified
 
 __all__ = [
-    "DIMENSIONS", "NONE", "Point", "SETS", "SHAPES", "Shape", "axis_key", "counted", "independent",
-    "independent_axis", "lattice", "owen_reversed", "pascal_reversed", "replicate_key", "scrambled",
-    "sobol", "sobol_pair", "sobol_plane", "sobol_shuffled", "stratified",
+    "DIMENSIONS", "NONE", "Point", "PointSet", "SETS", "SHAPES", "Shape", "axis_key", "counted",
+    "independent", "independent_axis", "lattice", "owen_reversed", "pascal_reversed",
+    "replicate_key", "scrambled", "sobol", "sobol_pair", "sobol_plane", "sobol_shuffled",
+    "stratified",
 ]  # fmt: skip
 
-#: name -> largest number of points per replicate, and whether it must be a power of two
-SETS = {
-    "independent": (1 << 62, False),
-    "stratified": (1 << 32, True),
-    "sobol": (1 << 32, True),
-    "lattice": (1 << max(GENERATORS, default=0), True),
+
+class PointSet(StrEnum):
+    """How the points of one randomisation lie: each has a function of its name here."""
+
+    INDEPENDENT = "independent"
+    STRATIFIED = "stratified"
+    SOBOL = "sobol"
+    LATTICE = "lattice"
+
+
+#: largest number of points per replicate, and whether it must be a power of two
+SETS: dict[str, tuple[int, bool]] = {
+    PointSet.INDEPENDENT: (1 << 62, False),
+    PointSet.STRATIFIED: (1 << 32, True),
+    PointSet.SOBOL: (1 << 32, True),
+    PointSet.LATTICE: (1 << max(GENERATORS, default=0), True),
 }
 #: what must be known of a set before its points: from its number of points
-SHAPES: dict[str, Callable[[int], Shape]] = {"stratified": grid, "lattice": generator}
+SHAPES: dict[str, Callable[[int], Shape]] = {
+    PointSet.STRATIFIED: grid,
+    PointSet.LATTICE: generator,
+}
 
 DIMENSIONS = 5
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from montecarlo_brdf.estimate import adaptive
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.samplers import charts_of
+from montecarlo_brdf.sampling.points import PointSet
 from montecarlo_brdf.scene.pixels import PLACE, means
 from montecarlo_brdf.scene.plan import Method, Work
 from montecarlo_brdf.scene.radiance import constant_values
@@ -49,7 +50,7 @@ def _charted(work: Work, cosines: Reals, seed: int) -> tuple[Reals, float] | Non
     import numpy as np
 
     charts = charts_of(work.model)
-    plan = Plan(points="lattice", seed=seed, target_error=TARGET, method="given")
+    plan = Plan(points=PointSet.LATTICE, seed=seed, target_error=TARGET, method="given")
     rows: list[list[float]] = []
     for mu in map(float, cosines) if charts else ():
         wo = (math.sqrt((1.0 - mu) * (1.0 + mu)), 0.0, mu)

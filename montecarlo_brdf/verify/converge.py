@@ -27,7 +27,7 @@ from montecarlo_brdf.judge.decide import SHOWN
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import DIRECTIONS, Sampler
-from montecarlo_brdf.sampling.points import SETS
+from montecarlo_brdf.sampling.points import SETS, PointSet
 from montecarlo_brdf.verify.question import (
     Progress,
     Question,
@@ -42,11 +42,11 @@ NAME = "convergence"
 SAMPLES = 1 << 21  # per level, over all randomisations
 
 #: the slope that is claimed at most, by point set: (smooth in the fitted chart, cut or kinked)
-CLAIMS = {
-    "independent": (-0.5, -0.5),
-    "stratified": (-0.9, -0.75),
-    "sobol": (-1.1, -0.75),
-    "lattice": (-1.9, -0.75),
+CLAIMS: dict[str, tuple[float, float]] = {
+    PointSet.INDEPENDENT: (-0.5, -0.5),
+    PointSet.STRATIFIED: (-0.9, -0.75),
+    PointSet.SOBOL: (-1.1, -0.75),
+    PointSet.LATTICE: (-1.9, -0.75),
 }
 SLACK = 0.05  # the slope -1/2 is exact: its estimate lies on both sides of it
 RANDOMISATIONS = 32
@@ -129,8 +129,8 @@ def reference_of(case: Case) -> Reference:
 def _claimed_as(case: Case, sampler: str, points: str) -> str:
     """Jittered grids spread two numbers at a time: with a lobe chosen by a third they converge like
     independent points."""
-    grid = points == "stratified" and sampler == Sampler.OWN
-    return "independent" if grid and _draws.chooses(case, case.theta_o_deg[0]) else points
+    grid = points == PointSet.STRATIFIED and sampler == Sampler.OWN
+    return PointSet.INDEPENDENT if grid and _draws.chooses(case, case.theta_o_deg[0]) else points
 
 
 class Level(NamedTuple):
@@ -200,7 +200,7 @@ class Curve(NamedTuple):
 
     def fitted(self, levels: Sequence[Level]) -> Line | None:
         """The line through the levels that are of use, if there is any."""
-        usable = USABLE_INDEPENDENT if self.points == "independent" else USABLE
+        usable = USABLE_INDEPENDENT if self.points == PointSet.INDEPENDENT else USABLE
         line = fitted(levels, self.floor, usable)
         if line is None and self.smooth and levels[-1].error >= USABLE:
             line = fitted(levels, self.floor, math.inf)  # a fitted chart has no excuse
@@ -223,7 +223,7 @@ class Curve(NamedTuple):
 
 def randomisations(points: str) -> int:
     """How many a level takes."""
-    return RANDOMISATIONS_INDEPENDENT if points == "independent" else RANDOMISATIONS
+    return RANDOMISATIONS_INDEPENDENT if points == PointSet.INDEPENDENT else RANDOMISATIONS
 
 
 def fitted(levels: Sequence[Level], floor: float, usable: float = USABLE) -> Line | None:
