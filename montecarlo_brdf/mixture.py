@@ -119,7 +119,7 @@ def _named(terms: Sequence[tuple[float, Model]]) -> tuple[Term, ...]:
     seen: dict[str, int] = {}
     named = []
     for weight, model in terms:
-        stem = re.sub(r"\W", "_", model.name.rpartition("/")[2].removesuffix(".py"))
+        stem = re.sub(r"\W", "_", model.identity.removesuffix(".py"))
         seen[stem] = seen.get(stem, 0) + 1
         prefix = stem if seen[stem] == 1 else f"{stem}_{seen[stem]}"
         named.append(Term(prefix, model, weight))

@@ -117,8 +117,8 @@ class Model:
         if not self.terms:
             return self.name if self.built_in else re.split(r"[/\\]", self.name)[-1]
         name = self.name
-        for term in self.terms:
-            name = name.replace(term.model.name, term.model.identity)
+        for one in sorted((t.model for t in self.terms), key=lambda m: -len(m.name)):
+            name = name.replace(one.name, one.identity)  # longest first: b/a/x.py holds a/x.py
         return name
 
     def variant(self, **picks: str) -> Model:
