@@ -17,6 +17,7 @@ FLOW = (
     ("errors",),
     ("bits", "files", "special", "student", "toml", "vectors"),
     ("compile", "statistics"),
+    ("arithmetic",),
     ("sampling",),
     ("loading", "mixture", "model", "models"),
     ("estimate",),

@@ -80,7 +80,7 @@ def show_point(model: Model, sets: Sequence[Any] | None, text: str) -> int:
     """f at one pair of directions in every precision, and its truth."""
     import numpy as np
 
-    from montecarlo_brdf.stability.arithmetic import exact, ladder
+    from montecarlo_brdf.arithmetic.types import exact, ladder
     from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 
     components = numbers(text, "at")

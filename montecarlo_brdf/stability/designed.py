@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from montecarlo_brdf.arithmetic.types import Arithmetic, Array
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
 
 #: Polar angles in degrees that are nothing special, for both directions.
 ANGLES = (15.0, 37.0, 45.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
+from montecarlo_brdf.arithmetic.types import Arithmetic, Array
 from montecarlo_brdf.stability.designed import Points
 from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 

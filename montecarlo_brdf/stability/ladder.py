@@ -10,11 +10,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from montecarlo_brdf.arithmetic.batch import Batch, Mixed, Widened, over_points
+from montecarlo_brdf.arithmetic.elementary import Rebound
+from montecarlo_brdf.arithmetic.types import Arithmetic, Array
 from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
-from montecarlo_brdf.stability.batch import Batch, Mixed, Widened, over_points
-from montecarlo_brdf.stability.elementary import Rebound
 
 
 class Rung:

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from montecarlo_brdf.arithmetic.types import Arithmetic, Array, exact, wider
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.stability import designed, sampling
-from montecarlo_brdf.stability.arithmetic import Arithmetic, Array, exact, wider
 from montecarlo_brdf.stability.designed import Points
 from montecarlo_brdf.stability.errors import Errors, errors
 from montecarlo_brdf.stability.ladder import Rung, rounded

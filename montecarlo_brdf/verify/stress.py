@@ -6,13 +6,13 @@ import time
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from montecarlo_brdf.arithmetic.types import ladder, precision
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Report, Result
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.stability import designed
-from montecarlo_brdf.stability.arithmetic import ladder, precision
 from montecarlo_brdf.stability.claims import claims
 from montecarlo_brdf.stability.stress import Loss, loss
 from montecarlo_brdf.verify.question import Progress, part_of, reported

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from typing import Any
 
-from montecarlo_brdf.stability.arithmetic import Arithmetic
-from montecarlo_brdf.stability.batch import over_points
-from montecarlo_brdf.stability.elementary import Rebound
+from montecarlo_brdf.arithmetic.batch import over_points
+from montecarlo_brdf.arithmetic.elementary import Rebound
+from montecarlo_brdf.arithmetic.types import Arithmetic
 
 
 def in_precision(function: Callable[..., Any], arithmetic: Arithmetic, *columns: Any) -> Any:

@@ -10,7 +10,8 @@ import math
 import pytest
 
 from montecarlo_brdf import loading
-from montecarlo_brdf.stability import arithmetic, designed
+from montecarlo_brdf.arithmetic import types as arithmetic
+from montecarlo_brdf.stability import designed
 from montecarlo_brdf.stability.stress import Loss, loss
 
 DEAR = ("ggx_kulla_conty", "oren_nayar_full")  # more than 7 s each

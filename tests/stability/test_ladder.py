@@ -9,8 +9,9 @@ import pytest
 from columns import in_precision
 
 from montecarlo_brdf import loading
+from montecarlo_brdf.arithmetic import types as arithmetic
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.stability import arithmetic, designed, ladder
+from montecarlo_brdf.stability import designed, ladder
 from montecarlo_brdf.stability.ladder import Rung
 
 SINGLE, DOUBLE, EXACT = (

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from montecarlo_brdf.stability.arithmetic import Arithmetic, Array
+from montecarlo_brdf.arithmetic.types import Arithmetic, Array
 
 MOST_PARTS = 20_000
 LOWEST_INTEGER = -(1 << 63)  # what a processor gives for the integer of NaN

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from montecarlo_brdf import bits, special
+from montecarlo_brdf.arithmetic.batch import Batch, Whole
+from montecarlo_brdf.arithmetic.types import Arithmetic
 from montecarlo_brdf.compile.bind import Specialiser
-from montecarlo_brdf.stability.arithmetic import Arithmetic
-from montecarlo_brdf.stability.batch import Batch, Whole
 
 #: Functions of `math` and NumPy's names for them.
 NAMES = {

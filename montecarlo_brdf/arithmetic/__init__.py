@@ -1,0 +1,1 @@
+"""Arrays that stand for numbers: of any precision, and such that tell how they were compared."""
