@@ -14,11 +14,10 @@ from pathlib import Path
 
 from montecarlo_brdf import references
 from montecarlo_brdf.compile import cache, native
-from montecarlo_brdf.judge.claim import Kind
-from montecarlo_brdf.references import Truth
+from montecarlo_brdf.judge.claim import Kind, Reference
 
 
-def true_albedo(name: str, mu_o: float, /, **parameters: float | str) -> Truth | None:
+def true_albedo(name: str, mu_o: float, /, **parameters: float | str) -> Reference | None:
     """A(theta_o) by `references.albedo`, or as it was when it was last asked for.
 
     name: a built-in model; mu_o: cos(theta_o), above 0; its parameters, picks and, for a model that
@@ -28,17 +27,20 @@ def true_albedo(name: str, mu_o: float, /, **parameters: float | str) -> Truth |
     values = _values(_file(name))
     if question not in values:
         truth = references.albedo(name, mu_o, **parameters)
-        if truth is None or truth.kind == Kind.CLOSED_FORM:
-            return truth
-        values[question] = Truth(float(truth.value), float(truth.error), *truth[2:])
+        if truth is None:
+            return None
+        known = Reference.of(*truth)
+        if known.kind is Kind.CLOSED_FORM:
+            return known
+        values[question] = known
         cache.note(_file(name), json.dumps([question, *values[question]]))
     return values[question]
 
 
 @functools.cache
-def _values(file: str) -> dict[str, Truth]:
+def _values(file: str) -> dict[str, Reference]:
     lines = [json.loads(line) for line in cache.notes(file)]
-    return {question: Truth(*truth) for question, *truth in lines}
+    return {question: Reference.of(*truth) for question, *truth in lines}
 
 
 @functools.cache

@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 import montecarlo_brdf
+from montecarlo_brdf.estimate.plan import Choice
 from montecarlo_brdf.judge.claim import Kind
 from montecarlo_brdf.judge.finding import Bound, Verdict
 from montecarlo_brdf.model import Property
@@ -40,6 +41,7 @@ STEERING: dict[str, tuple[type[StrEnum], ...]] = {
     "sampler": (Sampler,),
     "chart": (Sampler,),
     "points": (PointSet,),
+    "method": (Choice,),
 }
 
 
@@ -93,6 +95,7 @@ def test_no_word_in_quotes_stands_for_a_value_of_an_enum() -> None:
         "bound in ('at most', 'at least')",
         "claim.expected.kind.startswith('quadrature')",
         "sampler.value == 'own'",
+        "plan.method == 'auto'",
         "match sampler:\n    case 'own':\n        pass",
     ],
 )

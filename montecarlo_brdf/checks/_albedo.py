@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.estimate import adaptive, trust
 from montecarlo_brdf.estimate.evaluate import estimates
-from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.plan import Choice, Plan
 from montecarlo_brdf.estimate.quantity import Quantity, second_moment
 from montecarlo_brdf.estimate.samplers import BLIND, functions_of, integrand, samplers_of
 from montecarlo_brdf.estimate.trust import Measurement
@@ -42,7 +42,7 @@ def of_channel(measured: Measure, k: int, plan: Plan) -> list[Measurement]:
 def measure(case: Case, theta: float, plan: Plan) -> list[list[Measurement]]:
     """All estimators of A in one pass over the points, per channel."""
     model, wo = case.model, case.wo(theta)
-    if plan.target_error is not None or plan.method == "auto":
+    if plan.target_error is not None or plan.method is Choice.AUTO:
         return _adaptive(model, case.p, wo, plan)
     chosen = [s for s in samplers_of(model) if case.samplers is None or s in case.samplers]
     means = [integrand(model, Quantity.ALBEDO, s) for s in chosen]

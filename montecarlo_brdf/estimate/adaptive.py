@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import moments, quantity
 from montecarlo_brdf.estimate.ascent import FIRST, Ascent, Method, Setting, looks_of
 from montecarlo_brdf.estimate.evaluate import estimates
-from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.plan import TARGETS, Choice, Plan
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import (
     charts_of,
@@ -32,7 +32,6 @@ from montecarlo_brdf.statistics import Estimate, estimates_of
 from montecarlo_brdf.vectors import Vec
 
 LARGEST_NEED = 1 << 14  # samples of a replicate: beyond that the chart does not fit
-TARGETS = (1e-13, 1.0)
 
 
 class Outcome(NamedTuple):
@@ -44,35 +43,16 @@ class Outcome(NamedTuple):
     error: float  # largest relative half-width
 
 
-def check_target(target: Any) -> float:
-    """A relative error in [1e-13, 1), or a UserError."""
-    low, high = TARGETS
-    number = float(target) if isinstance(target, (int, float)) else math.nan
-    if isinstance(target, bool) or not low <= number < high:
-        allowed = f"a relative error in [{low:g}, {high:g})"
-        raise UserError(f"target_error must be {allowed}, not {target}")
-    return number
-
-
-def check_plan(plan: Plan) -> None:
-    """Raise UserError for a target or a method that is not allowed."""
-    if plan.method not in ("auto", "given"):
-        raise UserError(unknown("method", plan.method, ("auto", "given")))
-    if plan.target_error is not None:
-        check_target(plan.target_error)
-
-
 def albedo(
     model: Model, p: ParameterSet, wo: Vec, plan: Plan, sampler: str = "cosine"
 ) -> tuple[list[Estimate], bool]:
     """Directional albedo per channel by a plan with a target or a method, and whether it got there.
 
-    `sampler` is used with plan.method "given" only.
+    `sampler` is used where the plan chooses none.
     """
-    check_plan(plan)
     model = model.of(p)
     if plan.target_error is not None:
-        picked = given(model, sampler, plan.points) if plan.method == "given" else None
+        picked = given(model, sampler, plan.points) if plan.method is Choice.GIVEN else None
         return _until(model, p, wo, plan, picked)
     best = suited(model, p, wo, plan)
     mean = integrand(model, Quantity.ALBEDO, best.sampler)

@@ -9,7 +9,14 @@ from montecarlo_brdf.compile.bind import Function
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import adaptive, quantity
 from montecarlo_brdf.estimate.evaluate import estimates, evaluate
-from montecarlo_brdf.estimate.plan import REPLICATES, Plan, check_subject, check_theta
+from montecarlo_brdf.estimate.plan import (
+    REPLICATES,
+    Choice,
+    Plan,
+    check_method,
+    check_subject,
+    check_theta,
+)
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import BLIND, Subject, charts_of, integrand, samplers_of
 from montecarlo_brdf.model import Model, NoParams, ParameterSet
@@ -54,10 +61,10 @@ def directional_albedo(
         rest = {k: v for k, v in locals().items() if k not in ("model", "p", "theta_o_deg")}
         return _each(directional_albedo, model, p, theta_o_deg, rest)
     check_subject(model, p)
-    chosen = method or ("given" if target_error is None else "auto")
+    chosen = check_method(method, target_error)
     plan = Plan(points, samples, replicates, seed, threads, None, target_error, chosen)
     wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
-    if target_error is None and chosen == "given":
+    if target_error is None and chosen is Choice.GIVEN:
         return _one(model, p, Quantity.ALBEDO, wo, sampler, plan)
     found, _ = adaptive.albedo(model, p, wo, plan, sampler)
     return found[0] if len(found) == 1 else found

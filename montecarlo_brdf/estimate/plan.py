@@ -6,7 +6,7 @@ import math
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import work
 from montecarlo_brdf.model import Model
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 REPLICATES = 16
 MOST_SAMPLES = 1 << 40
+TARGETS = (1e-13, 1.0)  # relative errors that may be asked for
 
 
 class Choice(StrEnum):
@@ -34,20 +35,31 @@ class Plan(NamedTuple):
     threads: int = 1
     progress: work.Progress | None = None
     target_error: float | None = None  # relative; None: just the samples asked for
-    method: str = Choice.GIVEN  # AUTO also without a target
+    method: Choice = Choice.GIVEN  # AUTO also without a target
     sums: PartialSums | None = None  # where long jobs keep how far they are
     effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at
 
 
-def check_samples(samples: Any) -> int:
-    """A number of samples between 1 and 2^40, or a UserError."""
-    if (
-        isinstance(samples, bool)
-        or not isinstance(samples, int)
-        or not 1 <= samples <= MOST_SAMPLES
-    ):
+def check_samples(samples: Any) -> None:
+    """Raise UserError unless it is a number of samples between 1 and 2^40."""
+    whole = not isinstance(samples, bool) and isinstance(samples, int)
+    if not (whole and 1 <= samples <= MOST_SAMPLES):
         raise UserError(f"samples must be a whole number from 1 to 2^40, not {samples}")
-    return samples
+
+
+def check_method(method: str | None, target_error: Any) -> Choice:
+    """Who chooses, which is the model where a target is all that is said. Raises UserError for a
+    method that is none, or a target that is no relative error in [1e-13, 1)."""
+    if method is not None and method not in list(Choice):
+        raise UserError(unknown("method", method, Choice))
+    low, high = TARGETS
+    if target_error is None:
+        return Choice(method or Choice.GIVEN)
+    number = isinstance(target_error, int | float) and not isinstance(target_error, bool)
+    if not (number and low <= target_error < high):
+        allowed = f"a relative error in [{low:g}, {high:g})"
+        raise UserError(f"target_error must be {allowed}, not {target_error}")
+    return Choice(method or Choice.AUTO)
 
 
 def check_subject(model: Any, p: Any) -> None:

@@ -38,12 +38,17 @@ class Reference(NamedTuple):
 
     value: float
     error: float
-    kind: str
-    source: str
+    kind: Kind | None = None  # None: a bare number
+    source: str = ""
+
+    @classmethod
+    def of(cls, value: float, error: float, kind: str, source: str) -> Reference:
+        """A truth of `references`, which know no type of ours."""
+        return cls(float(value), float(error), Kind(kind), source)
 
     def told(self) -> dict[str, Any] | None:
         """What a finding tells of it besides its value; nothing of a bare number."""
-        if not self.kind:
+        if self.kind is None:
             return None
         return {"kind": self.kind, "source": self.source, "error": self.error}
 

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.samplers import BLIND
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Kind, MeanClaim, Reference
 from montecarlo_brdf.judge.finding import Bound, Finding, Verdict
@@ -31,8 +32,6 @@ CONFIRMING_REPLICATES = 64
 #: the probabilities of both being wrong multiply. Lattices are not asked: where one mode dominates,
 #: the tails of few shifts are not those of Student's t.
 CONFIRMING_POINTS = PointSet.SOBOL
-#: estimators that use nothing of a model but its f
-OF_F_ALONE = ("uniform", "cosine")
 #: how often a deviation of the size `resolves` may escape
 ESCAPES = 0.05
 #: how often the spread of another run may exceed what `resolves` allows for
@@ -195,7 +194,7 @@ def _of_same_f(claim: MeanClaim) -> bool:
 def _resolving(claim: MeanClaim, opinions: Opinions) -> Opinion:
     """The opinion that says which deviation would be caught: the one shown, but where a quadrature
     says the same f that of the model's own draws, as others refute the quadrature."""
-    own = [o for o in opinions if o.measurement.estimator not in OF_F_ALONE]
+    own = [o for o in opinions if o.measurement.estimator not in BLIND]
     drawn = [o for o in own if not o.measurement.unfit and o.measurement.bound is None]
     return telling(drawn if drawn and _of_same_f(claim) else opinions)
 
@@ -203,7 +202,7 @@ def _resolving(claim: MeanClaim, opinions: Opinions) -> Opinion:
 def _missed(opinions: Opinions) -> bool:
     """Whether samples of f refute a quadrature of the same f: it has missed something."""
     refuting = [o.measurement for o in opinions if o.verdict == Verdict.FAIL]
-    return any(m.estimator in OF_F_ALONE and math.isfinite(m.estimate.mean) for m in refuting)
+    return any(m.estimator in BLIND and math.isfinite(m.estimate.mean) for m in refuting)
 
 
 def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[Opinions, int]:

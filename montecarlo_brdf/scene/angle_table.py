@@ -50,7 +50,7 @@ def _charted(work: Work, cosines: Reals, seed: int) -> tuple[Reals, float] | Non
     import numpy as np
 
     charts = charts_of(work.model)
-    plan = Plan(points=PointSet.LATTICE, seed=seed, target_error=TARGET, method="given")
+    plan = Plan(points=PointSet.LATTICE, seed=seed, target_error=TARGET)
     rows: list[list[float]] = []
     for mu in map(float, cosines) if charts else ():
         wo = (math.sqrt((1.0 - mu) * (1.0 + mu)), 0.0, mu)

@@ -143,7 +143,7 @@ def _albedo(model: Model, p: ParameterSet, wo: Vec) -> Any:
 def _closed(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Reference | None:
     if isinstance(shape, skies.Cosine) and shape.axis == (0.0, 0.0, 1.0) and model.built_in:
         truth = _irradiance.cosine_sky(model.name, wo[2], shape.exponent, **p._asdict())
-        return Reference(*truth) if truth else None
+        return Reference.of(*truth) if truth else None
     return None
 
 

@@ -14,7 +14,7 @@ from montecarlo_brdf.stability.stress import Found, Loss
 
 #: Constants of a source are doubles: long double cannot be better.
 DOUBLE = 2.0**-52
-NOTHING = Reference(0.0, 0.0, "", "")  # no error is expected
+NOTHING = Reference(0.0, 0.0)  # no error is expected
 SEARCH = "search"
 #: what must not become of f, and how it is called
 BROKEN = {"nan": "NaN", "inf": "Inf", "negative": "negative"}

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.errors import TooSlow, UserError, unknown
-from montecarlo_brdf.estimate import adaptive, probe
-from montecarlo_brdf.estimate.plan import Choice, Plan, check_samples
+from montecarlo_brdf.estimate import probe
+from montecarlo_brdf.estimate.plan import Choice, Plan, check_method, check_samples
 from montecarlo_brdf.judge.claim import Claim
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
@@ -42,7 +42,7 @@ class Settings:
     threads: int | None = None  # None: all processors
     tolerance: float | None = None  # None: each claim's own
     target_error: float | None = None  # relative
-    method: str | None = None  # a Choice; None: AUTO with a target
+    method: str | None = None  # a `Choice`; None: AUTO with a target
     sums: PartialSums | None = None
     effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at
 
@@ -55,7 +55,7 @@ class Settings:
         if not isinstance(seed, int) or not 0 <= seed < 1 << 64:
             raise UserError(f"seed must be a whole number from 0 to 2^64 - 1, not {seed}")
         check_samples(self.samples)
-        adaptive.check_plan(self.plan)
+        check_method(self.method, self.target_error)
         if tolerance is not None and not 0.0 <= tolerance < 1.0:
             raise UserError(f"tolerance must be a number in [0, 1), not {tolerance}")
         number = isinstance(self.effort, int | float) and not isinstance(self.effort, bool)
@@ -68,8 +68,7 @@ class Settings:
         return Plan(
             points=self.points, samples=self.samples, seed=self.seed,
             threads=all_threads() if self.threads is None else self.threads,
-            target_error=self.target_error,
-            method=self.method or (Choice.GIVEN if self.target_error is None else Choice.AUTO),
+            target_error=self.target_error, method=check_method(self.method, self.target_error),
             sums=self.sums, effort=self.effort,
         )  # fmt: skip
 
@@ -79,7 +78,7 @@ class Settings:
         told: dict[str, Any] = {"points": plan.points, "samples": plan.samples, "seed": plan.seed}
         if plan.effort != 1.0:
             told["effort"] = plan.effort
-        if plan.target_error is not None or plan.method != Choice.GIVEN:
+        if plan.target_error is not None or plan.method is not Choice.GIVEN:
             told |= {"target_error": plan.target_error, "method": plan.method}
         return told
 
