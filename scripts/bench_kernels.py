@@ -30,7 +30,7 @@ from montecarlo_brdf.estimate import moments
 from montecarlo_brdf.estimate.quantity import Quantity, integrand
 from montecarlo_brdf.sampling import points
 from montecarlo_brdf.sampling.directions import Sampler
-from montecarlo_brdf.sampling.keys import NONE, replicate_key
+from montecarlo_brdf.sampling.points import NONE, replicate_key
 
 COUNT = 1 << 17
 PAIRS = 21

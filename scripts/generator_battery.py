@@ -1,6 +1,6 @@
 """Is the counter generator random enough? Streams and pairs of streams against a battery of tests.
 
-`sampling.independent` makes word i of a coordinate by five rounds from its pair's key + i, that of
+`sampling.points` makes word i of a coordinate by five rounds from its pair's key + i, that of
 the pair's second coordinate by two more. Streams are taken as a program would meet them:
 consecutive and strided counters, far counters, and, because two streams are most easily too much
 alike, words taken in turn from pairs and families of streams: keys that differ by one bit,
@@ -27,8 +27,7 @@ from randomness_tests import TESTS, U64, Words
 from scipy import stats
 
 from montecarlo_brdf.bits import GOLDEN
-from montecarlo_brdf.sampling.independent import LOW, MULTIPLIER
-from montecarlo_brdf.sampling.keys import axis_key, replicate_key
+from montecarlo_brdf.sampling.points import LOW, MULTIPLIER, axis_key, replicate_key
 
 LEVEL = 1e-6
 Stream = Callable[[int, int], Words]  # (key, number of words) -> words
@@ -38,7 +37,7 @@ ROUNDS = (5, 7)  # of the first and second coordinate of a pair
 
 
 def scattered(z: Words, rounds: int = ROUNDS[0]) -> Words:
-    """`sampling.independent.crossed`, some times, on arrays."""
+    """`sampling.points.crossed`, some times, on arrays."""
     for _ in range(rounds):
         product = (z & U64(LOW)) * U64(MULTIPLIER)
         z = (product << U64(32)) | (product >> U64(32)) ^ (z >> U64(32))

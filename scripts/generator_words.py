@@ -14,7 +14,7 @@ import numpy as np
 from generator_battery import ROUNDS, scattered
 from randomness_tests import U64
 
-from montecarlo_brdf.sampling.keys import axis_key, replicate_key
+from montecarlo_brdf.sampling.points import axis_key, replicate_key
 
 CHUNK = 1 << 18
 

@@ -19,8 +19,7 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.estimate.samplers import Subject
 from montecarlo_brdf.estimate.work import Ladder
-from montecarlo_brdf.sampling.keys import stream
-from montecarlo_brdf.sampling.points import NONE, SHAPES
+from montecarlo_brdf.sampling.points import NONE, SHAPES, stream
 from montecarlo_brdf.statistics import least_error
 
 EACH = 1024  # samples of a replicate: what the first look and its confirmation take

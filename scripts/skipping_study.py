@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from environment import describe
 
-from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import plan, radiance
 from montecarlo_brdf.scene.read import read_scene
+from montecarlo_brdf.statistics import quantile
 from montecarlo_brdf.vectors import from_degrees
 
 SCENES, SAMPLES, LEVEL = 200, 1 << 13, 1e-6
@@ -95,7 +95,7 @@ def compared(text: str, theta: float, folder: Path) -> list[tuple[str, float]]:
     short, long = (
         radiance.measure(plan.make(scene, skip), wo, sampling) for skip in (True, False)
     )
-    bar = student.quantile(LEVEL / (3 * SCENES) / 2.0, 15)
+    bar = quantile(LEVEL / (3 * SCENES) / 2.0, 15)
     rows = []
     for a, b in zip(short, long, strict=True):
         x, y = a.estimate, b.estimate

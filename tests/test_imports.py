@@ -15,7 +15,7 @@ NAME = PACKAGE.name
 #: A part may import itself, what stands before it in its row, and errors.
 FLOW = (
     ("errors",),
-    ("bits", "files", "special", "student", "toml", "vectors"),
+    ("bits", "files", "special", "toml", "vectors"),
     ("compile", "statistics"),
     ("arithmetic",),
     ("sampling",),

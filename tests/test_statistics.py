@@ -5,10 +5,19 @@ import math
 
 import numpy as np
 import pytest
+from scipy import stats
 
-from montecarlo_brdf import student
-from montecarlo_brdf.sampling.keys import stream
-from montecarlo_brdf.statistics import FLOOR, HIDDEN, Moments, estimate, merged, with_error
+from montecarlo_brdf.sampling.points import stream
+from montecarlo_brdf.statistics import (
+    FLOOR,
+    HIDDEN,
+    Moments,
+    estimate,
+    merged,
+    quantile,
+    tail,
+    with_error,
+)
 
 PRINTED = [
     (0.688993, 0.00076, "0.68899(76)"),
@@ -69,7 +78,7 @@ def test_mean_and_error_bar_of_replicates() -> None:
     e = estimate([Moments(10, m, 0.0, m) for m in means])
     assert e.mean == 3.0 and e.samples == 40 and e.dof == 3 and e.replicates == tuple(means)
     assert e.stderr == pytest.approx(np.std(means, ddof=1) / 2.0, rel=1e-15)
-    assert e.half_width(0.05) == student.quantile(0.025, 3) * e.stderr
+    assert e.half_width(0.05) == quantile(0.025, 3) * e.stderr
     assert e.second_moment == pytest.approx(np.mean(np.square(means)), rel=1e-15)
     assert e.largest == 5.0
     assert str(e) == with_error(e.mean, e.stderr)
@@ -94,7 +103,7 @@ def test_the_least_error_bar_covers_what_can_hide() -> None:
     which an event stays unseen in N draws."""
     for dof in (15, 63):
         for level in (0.05, 1e-3, 1e-6, 1e-9, 1e-11):
-            assert HIDDEN * student.quantile(level / 2.0, dof) >= -math.log(level)
+            assert HIDDEN * quantile(level / 2.0, dof) >= -math.log(level)
 
 
 def test_one_replicate_has_no_error_bar() -> None:
@@ -129,3 +138,35 @@ def test_squares_beyond_the_range_of_numbers_are_no_crash(value: float) -> None:
     assert e.mean == pytest.approx(1.75 * value)
     assert e.effective_samples() >= 0.0 or math.isnan(e.effective_samples())
     assert estimate([Moments(64.0, value, -math.inf, 1.0), Moments(64.0, value, math.inf, 1.0)])
+
+
+# Student's t against scipy, from the middle to tails of 1e-12 and beyond --------------------------
+
+DOF = [1, 2, 3, 7, 15, 31, 63, 255, 1000]
+
+
+@pytest.mark.parametrize("dof", DOF)
+@pytest.mark.parametrize("t", [1e-3, 0.5, 1.0, 2.0, 4.9, 12.0, 40.0])
+def test_tail(t: float, dof: int) -> None:
+    assert tail(t, dof) == pytest.approx(stats.t.sf(t, dof), rel=1e-11)
+
+
+@pytest.mark.parametrize("dof", DOF)
+@pytest.mark.parametrize("upper", [0.49, 0.25, 0.025, 1e-3, 1e-6, 1e-9, 1e-12])
+def test_quantile(upper: float, dof: int) -> None:
+    assert quantile(upper, dof) == pytest.approx(stats.t.isf(upper, dof), rel=1e-11)
+    assert tail(quantile(upper, dof), dof) == pytest.approx(upper, rel=1e-9)
+
+
+@pytest.mark.parametrize("dof", DOF)
+def test_near_the_middle(dof: int) -> None:
+    """1/2 - t density(0); the next term is of order t^3."""
+    for t in (1e-5, 1e-9, 1e-16, 1e-170):
+        assert tail(t, dof) == pytest.approx(0.5 - t * stats.t.pdf(0.0, dof), rel=1e-11)
+
+
+def test_ends() -> None:
+    assert tail(0.0, 5) == 0.5
+    assert tail(math.inf, 5) == tail(1e200, 5) == 0.0
+    assert quantile(0.5, 5) == 0.0
+    assert quantile(0.01, 0) == math.inf

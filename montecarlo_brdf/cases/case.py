@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.model import Model, ParameterSet, channels
-from montecarlo_brdf.sampling.keys import stream
+from montecarlo_brdf.sampling.points import stream
 from montecarlo_brdf.vectors import Vec, from_degrees
 
 if TYPE_CHECKING:

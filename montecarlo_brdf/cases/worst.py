@@ -25,7 +25,7 @@ from montecarlo_brdf.estimate.quadrature import grid
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import samplers_of
 from montecarlo_brdf.sampling.directions import Sampler
-from montecarlo_brdf.sampling.keys import stream
+from montecarlo_brdf.sampling.points import stream
 from montecarlo_brdf.sampling.spread import net, spread
 from montecarlo_brdf.vectors import Vec, from_degrees
 

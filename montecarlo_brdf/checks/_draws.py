@@ -21,7 +21,7 @@ from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Exact
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.sampling.keys import stream
+from montecarlo_brdf.sampling.points import stream
 from montecarlo_brdf.statistics import Moments, estimate, hidden_error
 from montecarlo_brdf.vectors import Vec
 

@@ -24,7 +24,7 @@ from montecarlo_brdf.estimate.cells import COLUMNS, ROWS
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Fit, FitClaim, Skip
 from montecarlo_brdf.model import Property
-from montecarlo_brdf.sampling.keys import stream
+from montecarlo_brdf.sampling.points import stream
 
 if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array

@@ -12,7 +12,6 @@ import math
 from array import array
 from typing import Any, NamedTuple
 
-from montecarlo_brdf import student
 from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import Layout
@@ -21,9 +20,8 @@ from montecarlo_brdf.estimate.moments import STATE, kernel_of, template_of
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.sampling.directions import PROBES, Sampler
-from montecarlo_brdf.sampling.keys import stream
-from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES, PointSet
-from montecarlo_brdf.statistics import FLOOR
+from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES, PointSet, stream
+from montecarlo_brdf.statistics import FLOOR, quantile
 from montecarlo_brdf.vectors import Vec
 
 FIRST = 64  # samples of a replicate at the first look,
@@ -147,7 +145,7 @@ def factors(replicates: int, looks: int) -> tuple[float, ...]:
     """Half-width of each look over the root of the sum of squared deviations of the means."""
     scale = math.sqrt(replicates * (replicates - 1))
     return tuple(
-        student.quantile(0.5 * LEVEL * 0.5 ** (k + 1), replicates - 1) / scale
+        quantile(0.5 * LEVEL * 0.5 ** (k + 1), replicates - 1) / scale
         for k in range(looks)
     )
 

@@ -18,7 +18,7 @@ from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Buffer, Unpack, pack
 from montecarlo_brdf.model import Model, ParameterSet
-from montecarlo_brdf.sampling.independent import independent_axis
+from montecarlo_brdf.sampling.points import independent_axis
 from montecarlo_brdf.sampling.slopes import coordinates, direction
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from montecarlo_brdf.estimate.plan import Plan, check_samples
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.estimate.samplers import Subject, query, subject_of
 from montecarlo_brdf.model import Model, ParameterSet
-from montecarlo_brdf.sampling.keys import stream
-from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES, PointSet
+from montecarlo_brdf.sampling.points import NONE, SETS, SHAPES, PointSet, stream
 from montecarlo_brdf.statistics import Estimate, estimate
 from montecarlo_brdf.vectors import Vec
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.compile.kernel import Kernel
 from montecarlo_brdf.estimate.moments import BLOCK, STATE
-from montecarlo_brdf.sampling.keys import NONE, Shape
+from montecarlo_brdf.sampling.points import NONE, Shape
 from montecarlo_brdf.statistics import Moments, merged
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, NamedTuple
 
-from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.finding import Bound, Verdict
 from montecarlo_brdf.model import Property
+from montecarlo_brdf.statistics import quantile
 
 #: Tolerances are stated, not discovered: docs/statistics.md.
 BOUND_TOLERANCE = 1e-5  # absolute, for "at most 1"
@@ -112,7 +112,7 @@ class Slope(NamedTuple):
 
     def half_width(self, level: float) -> float:
         """Half the width of the slope's interval."""
-        return student.quantile(0.5 * level, self.dof) * self.stderr
+        return quantile(0.5 * level, self.dof) * self.stderr
 
 
 @dataclass(frozen=True)

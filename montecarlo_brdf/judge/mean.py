@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.samplers import BLIND
 from montecarlo_brdf.estimate.trust import Measurement
@@ -21,7 +20,7 @@ from montecarlo_brdf.judge.finding import Bound, Finding, Verdict
 from montecarlo_brdf.judge.hint import hint
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.sampling.points import PointSet
-from montecarlo_brdf.statistics import FLOOR
+from montecarlo_brdf.statistics import FLOOR, quantile
 
 FIRST_LOOK = 1 << 14
 GROWTH = 4
@@ -155,9 +154,9 @@ def resolves(claim: MeanClaim, opinion: Opinion, level: float, share: float) -> 
         return known + opinion.half_width
     if e.dof < 1:
         return math.inf
-    wider = math.exp(math.asinh(student.quantile(LUCK, e.dof) / math.sqrt(e.dof)))
+    wider = math.exp(math.asinh(quantile(LUCK, e.dof) / math.sqrt(e.dof)))
     last = max(e.stderr * math.sqrt(share), FLOOR * abs(e.mean))
-    widths = student.quantile(level / 2.0, e.dof) + student.quantile(ESCAPES, e.dof)
+    widths = quantile(level / 2.0, e.dof) + quantile(ESCAPES, e.dof)
     return known + wider * widths * last
 
 

@@ -8,9 +8,6 @@ from __future__ import annotations
 
 import functools
 
-from montecarlo_brdf.bits import LOW, u64, unit
-from montecarlo_brdf.sampling.keys import Point, Shape, axis_key
-
 #: z[m] for N = 2^m points: the components after the first, which is 1. The second is the Korobov
 #: generator with the largest Zaremba index, the others minimise the error of smooth integrands in
 #: up to 5 dimensions, component by component. scripts/lattice_search.py prints this table.
@@ -49,27 +46,8 @@ BETWEEN: dict[int, tuple[int, int, int, int]] = {
 
 
 @functools.cache
-def generator(size: int) -> Shape:
+def generator(size: int) -> tuple[int, int, int, int, int]:
     """(2^64/N, and that times the other components of z) for N = size, a power of 2 or between."""
     step = (1 << 64) // size
     z = BETWEEN.get(size) or GENERATORS[size.bit_length() - 1]
     return step % (1 << 64), *((c * step) % (1 << 64) for c in z)  # type: ignore[return-value]
-
-
-def lattice_axis(key: int, index: int, axis: int, step: int) -> float:
-    """One coordinate; the shift has the full 64 bits of its key.
-
-    An index is less than 2^32: told so, the compiler leaves a third of the product out.
-    """
-    return unit(u64(u64(u64(index & u64(LOW)) * u64(step)) + axis_key(key, axis)))
-
-
-def lattice(key: int, index: int, shape: Shape) -> Point:
-    """Points of a randomly shifted lattice."""
-    return (
-        lattice_axis(key, index, u64(0), shape[0]),
-        lattice_axis(key, index, u64(1), shape[1]),
-        lattice_axis(key, index, u64(2), shape[2]),
-        lattice_axis(key, index, u64(3), shape[3]),
-        lattice_axis(key, index, u64(4), shape[4]),
-    )

@@ -7,7 +7,7 @@ import functools
 from typing import TYPE_CHECKING
 
 from montecarlo_brdf.bits import reverse32
-from montecarlo_brdf.sampling.sobol import pascal_reversed, third
+from montecarlo_brdf.sampling.points import pascal_reversed, third
 
 if TYPE_CHECKING:
     import numpy as np

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.places import Pointwise
-from montecarlo_brdf.sampling.keys import stream
+from montecarlo_brdf.sampling.points import stream
 from montecarlo_brdf.scene import skies
 from montecarlo_brdf.scene.angle_table import tabulated
 from montecarlo_brdf.scene.pixels import means

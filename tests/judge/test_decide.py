@@ -8,7 +8,6 @@ from dataclasses import replace
 import pytest
 from scipy import stats
 
-from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge import mean as judging
@@ -24,7 +23,7 @@ from montecarlo_brdf.judge.mean import (
     judged,
     looks,
 )
-from montecarlo_brdf.statistics import Estimate
+from montecarlo_brdf.statistics import Estimate, quantile
 
 PLAN = Plan(samples=1 << 20)
 Measure = Callable[[Plan], list[Measurement]]
@@ -235,7 +234,7 @@ def test_all_looks_together_spend_less_than_the_level(monkeypatch: pytest.Monkey
 
 
 def test_the_margin_is_that_of_students_t() -> None:
-    half = student.quantile(LEVEL / 2.0, 15) * 1e-5
+    half = quantile(LEVEL / 2.0, 15) * 1e-5
     for share, verdict in ((0.999, "inconclusive"), (1.001, "pass")):
         m = steady(1.0 + 1e-3 - half * share, 1e-5)(PLAN._replace(samples=FIRST_LOOK))
         assert judged(claim(steady(1, 1)), m, LEVEL)[0].verdict == verdict
@@ -258,7 +257,7 @@ def test_resolves_is_a_deviation_that_the_last_look_would_have_failed() -> None:
         assert finding.resolves is not None and finding.resolves > 1e-3
         spread = wider * error
         last = spread * math.sqrt(FIRST_LOOK / PLAN.samples)
-        shifted = student.quantile(0.05, 15) * last  # what 5 % of all runs exceed
+        shifted = quantile(0.05, 15) * last  # what 5 % of all runs exceed
         for share, verdict in ((0.999, "fail"), (1.001, "inconclusive")):
             m = steady(1.0 + finding.resolves - share * shifted, spread)(PLAN)
             level = LEVEL * 2.0 ** -len(looks(PLAN.samples))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.sampling import stratified
+from montecarlo_brdf.sampling import points
 from montecarlo_brdf.sampling.points import replicate_key
 
 TOGETHER = {(0, 1), (2, 3)}
@@ -40,9 +40,9 @@ def test_pairs_fill_the_square(name: str, pair: tuple[int, int]) -> None:
 @pytest.mark.parametrize("bits", range(13))
 def test_an_order_is_a_permutation(bits: int) -> None:
     size = 1 << bits
-    shape = stratified.grid(size)
+    shape = points.grid(size)
     for key, axis in ((1, 2), (2**64 - 1, 4), (77, 4)):
-        order = [stratified.shuffled(key, i, axis, shape) for i in range(size)]
+        order = [points.shuffled(key, i, axis, shape) for i in range(size)]
         assert sorted(order) == list(range(size))
 
 

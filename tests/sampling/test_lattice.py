@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.sampling import charts
-from montecarlo_brdf.sampling.lattice import GENERATORS, generator, lattice
-from montecarlo_brdf.sampling.points import SETS, SHAPES, stratified
-from montecarlo_brdf.sampling.stratified import grid
+from montecarlo_brdf.sampling.lattice import GENERATORS, generator
+from montecarlo_brdf.sampling.points import SETS, SHAPES, grid, lattice, stratified
 from montecarlo_brdf.vectors import from_degrees
 
 SIZES = [1, 2, 8, 64, 512]

@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 from montecarlo_brdf.bits import reverse32, u32
-from montecarlo_brdf.sampling import sobol as module
+from montecarlo_brdf.sampling import points as module
 
 PAIRS = [(0, 1), (2, 3)]
 

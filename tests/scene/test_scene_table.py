@@ -8,12 +8,12 @@ from typing import Any
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf import student
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.scene import plan, radiance, skies, truth
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.skies import cap_of
 from montecarlo_brdf.scene.surface import Surface, lobes_of
+from montecarlo_brdf.statistics import quantile
 from montecarlo_brdf.vectors import from_degrees
 
 FILE = Path(__file__).parents[1] / "data" / "reference.json"
@@ -78,7 +78,7 @@ def test_estimates(group: str) -> None:
         )
         e, expected = found.estimate, float(entry["value"])
         if not found.unfit:
-            half = student.quantile(LEVEL / 2.0, 15) * e.stderr
+            half = quantile(LEVEL / 2.0, 15) * e.stderr
             assert abs(e.mean - expected) <= half + 1e-12 * expected + 1e-40, (entry, str(e))
         assert not found.unfit or expected < 1e-5, (entry, found.unfit)
         assert math.isfinite(e.mean)

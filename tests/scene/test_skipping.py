@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from scenes import EXAMPLES, estimates, written
 
 import montecarlo_brdf as mb
-from montecarlo_brdf import student
 from montecarlo_brdf.scene import plan, skies
 from montecarlo_brdf.scene.read import read_scene
 from montecarlo_brdf.scene.scene import Directional, Point, Scene, View
 from montecarlo_brdf.scene.skies import cap_of
 from montecarlo_brdf.scene.surface import Lobe, Surface
+from montecarlo_brdf.statistics import quantile
 from montecarlo_brdf.vectors import from_degrees
 
 LEVEL = 1e-6 / (200 * 3 + 100)  # of a false alarm, per comparison
@@ -29,7 +29,7 @@ def _agree(scene: Scene, theta: float, samples: int) -> None:
         if a.unfit or b.unfit:  # said so, and judged by nobody
             continue
         a, b = a.estimate, b.estimate
-        bar = student.quantile(LEVEL / 2.0, 15)
+        bar = quantile(LEVEL / 2.0, 15)
         noise = sum(e.stderr for e in (a, b) if e.samples > 1)
         assert abs(a.mean - b.mean) <= bar * noise + 1e-12 * abs(b.mean) + 1e-15
 
