@@ -1,4 +1,5 @@
-"""Compiled kernels on disk: one file each, named by the hash of everything it depends on.
+"""Compiled kernels on disk: one file each, named by the hash of everything it depends on, so that a
+stored one can never be stale.
 
 A file is a digest and an object file. It is written beside its final name and moved there, so two
 processes that compile the same kernel at once cannot disturb each other; a damaged file does not
@@ -8,16 +9,36 @@ Beside them lie notes: files of lines, each with its digest, to which any proces
 from __future__ import annotations
 
 import contextlib
+import enum
 import hashlib
 import os
 import tempfile
 import time
+import types
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
+
+from montecarlo_brdf.compile.bind import (
+    Bound,
+    Instruction,
+    is_own_module,
+    module_functions,
+    names_used,
+    plain,
+    references,
+    uses,
+)
 
 DIGEST = 16
 KEEP = 2000  # files; the least recently used beyond that are removed
 LARGEST_NOTES = 1 << 20  # bytes; a file of notes beyond that is begun anew
 LEFT_BEHIND = 3600.0  # seconds after which nobody writes a file any more
+#: Values whose repr is all there is to know about them.
+PLAIN = (int, float, complex, str, bytes, type(None), type(...), slice, range)
+PLAIN_MODULES = ("numpy", "numba.core.types")
+_PROCESS = os.urandom(16)
+_unknown: dict[int, Any] = {}
 
 
 def directory() -> Path:
@@ -107,3 +128,109 @@ def clear_leftovers(folder: Path) -> None:
         with contextlib.suppress(OSError):
             if time.time() - path.stat().st_mtime > LEFT_BEHIND:
                 path.unlink()
+
+
+class Fingerprint:
+    """Content hash of values and of all the code that a function reaches: code, constants, arrays,
+    defaults and closure cells."""
+
+    def __init__(self) -> None:
+        self._hash = hashlib.blake2b(digest_size=16)
+        self._seen: dict[tuple[int, object], int] = {}
+        self._modules: set[tuple[int, int]] = set()  # (module, code that uses it)
+
+    def hexdigest(self) -> str:
+        return self._hash.hexdigest()
+
+    def add(self, value: Any, names: Mapping[str, object] | None = None) -> None:
+        """Take in any value: code is followed, containers are walked, the rest goes by repr;
+        `names` fill the holes of a template."""
+        value = plain(value)
+        if isinstance(value, Bound):
+            self.add(value.function, dict(value.names))
+        elif isinstance(value, types.FunctionType):
+            self._add_function(value, names or {})
+        elif isinstance(value, Instruction):
+            self._text(type(value).__name__)
+            self.add(value.key())
+        elif isinstance(value, types.CodeType):
+            self._add_code(value)
+        elif isinstance(value, (tuple, list)):
+            self._add_sequence(value)
+        elif isinstance(value, (set, frozenset)):
+            self._text("set")
+            self._add_sequence(sorted(value, key=repr))
+        elif isinstance(value, dict):
+            self._text("dictionary")
+            self._add_sequence(sorted(value.items(), key=repr))
+        elif not isinstance(value, type) and hasattr(value, "tobytes") and hasattr(value, "dtype"):
+            self._text(f"array {value.dtype} {value.shape}")
+            self._hash.update(value.tobytes())
+        elif isinstance(value, types.ModuleType):
+            self._text(f"module {value.__name__}")
+        elif isinstance(value, type):
+            self._add_class(value)
+        elif isinstance(value, types.BuiltinFunctionType):
+            self._text(f"builtin {value.__module__}.{value.__qualname__}")
+        elif isinstance(value, PLAIN) or type(value).__module__.startswith(PLAIN_MODULES):
+            self._text(f"{type(value).__name__} {value!r}")
+        else:
+            self._add_unknown(value)
+
+    def _text(self, text: str) -> None:
+        self._hash.update(f"{len(text)}:{text};".encode())
+
+    def _add_unknown(self, value: Any) -> None:
+        """No content that could be hashed: the same kernel in this process, never in another."""
+        _unknown[id(value)] = value  # kept alive, so that the id stays its own
+        self._hash.update(_PROCESS)
+        self._text(f"object {id(value)}")
+
+    def _add_class(self, kind: type) -> None:
+        """Names, fields and values of named tuples and enumerations, which kernels may use."""
+        self._text(f"class {kind.__module__}.{kind.__qualname__}")
+        if isinstance(kind, enum.EnumMeta):
+            members: Mapping[str, Any] = kind.__members__
+            self.add([(name, member.value) for name, member in members.items()])
+        elif hasattr(kind, "_fields"):
+            self.add((kind._fields, getattr(kind, "_field_defaults", {})))
+        elif kind.__module__ != "builtins" and not kind.__module__.startswith(PLAIN_MODULES):
+            self._add_unknown(kind)
+
+    def _add_sequence(self, values: Any) -> None:
+        self._text(f"{type(values).__name__} of {len(values)}")
+        if hasattr(values, "_fields"):
+            self._add_class(type(values))
+        for value in values:
+            self.add(value)
+
+    def _add_code(self, code: types.CodeType) -> None:
+        self._text(code.co_name)
+        self._hash.update(code.co_code + code.co_exceptiontable)
+        self.add(code.co_consts)
+        self.add(code.co_names)
+        self.add(code.co_varnames + code.co_freevars + code.co_cellvars)
+
+    def _add_function(self, function: types.FunctionType, names: Mapping[str, object]) -> None:
+        place = id(function), frozenset(names.items()) if uses(function, names) else None
+        if place in self._seen:
+            self._text(f"function {self._seen[place]} again")
+            return
+        self._seen[place] = len(self._seen)
+        self._add_code(function.__code__)
+        self.add((function.__defaults__, function.__kwdefaults__))
+        self.add([cell.cell_contents for cell in function.__closure__ or ()])
+        for name, value in references(function, names).items():
+            self._text(name)
+            self.add(value, names if uses(value, names) else None)
+            self._add_module(value, function.__code__)
+
+    def _add_module(self, module: Any, code: types.CodeType) -> None:
+        """What `code` may use of a user's module, and of the modules in it."""
+        if not is_own_module(module) or (id(module), id(code)) in self._modules:
+            return
+        self._modules.add((id(module), id(code)))
+        for name, value in module_functions(module, names_used(code)).items():
+            self._text(name)
+            self.add(value)
+            self._add_module(value, code)

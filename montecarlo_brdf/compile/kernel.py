@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.compile import cache, compiler, layout, linking, native, twins
 from montecarlo_brdf.compile.bind import Bound, Function, Specialiser, bound
-from montecarlo_brdf.compile.fingerprint import Fingerprint
+from montecarlo_brdf.compile.cache import Fingerprint
 from montecarlo_brdf.errors import ModelError, UserError
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from montecarlo_brdf.compile.fingerprint import Fingerprint
+from montecarlo_brdf.compile.cache import Fingerprint
 
 BASE = """
 import math

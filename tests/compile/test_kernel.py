@@ -13,7 +13,7 @@ import pytest
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.compile import cache, compiler, kernel, linking, native
-from montecarlo_brdf.compile.fingerprint import Fingerprint
+from montecarlo_brdf.compile.cache import Fingerprint
 from montecarlo_brdf.compile.kernel import Kernel
 from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.errors import ModelError
