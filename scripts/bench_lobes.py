@@ -19,7 +19,7 @@ from typing import Any
 from environment import describe
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.estimate import adaptive, work
+from montecarlo_brdf.estimate import adaptive, evaluate
 from montecarlo_brdf.sampling.points import SHAPES
 from montecarlo_brdf.vectors import from_degrees
 
@@ -47,7 +47,7 @@ def per_sample(name: str) -> float:
     entry = made.means()
     shape = SHAPES["lattice"](SIZE)
     began = time.perf_counter()
-    work.run(work.Job(entry, reals, 1, SIZE, REPLICATES, SIZE, shape))
+    evaluate.run(evaluate.Job(entry, reals, 1, SIZE, REPLICATES, SIZE, shape))
     return (time.perf_counter() - began) / (SIZE * REPLICATES) * 1e9
 
 

@@ -25,7 +25,7 @@ from environment import describe
 
 import montecarlo_brdf as mb
 from montecarlo_brdf import loading, references
-from montecarlo_brdf.estimate import adaptive, trust, work
+from montecarlo_brdf.estimate import adaptive, evaluate, trust
 from montecarlo_brdf.estimate.ascent import Ascent
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.trust import measured
@@ -63,7 +63,8 @@ def drawn(setting: adaptive.Setting, wo: Any, size: int, seeds: int) -> list[Est
     points = setting.method.points
     shape = SHAPES[points](size) if points in SHAPES else NONE
     reals = (*wo, setting.width, *setting.numbers)
-    rows = work.run(work.Job(setting.means(), reals, 1, size, REPLICATES * seeds, size, shape))[0]
+    job = evaluate.Job(setting.means(), reals, 1, size, REPLICATES * seeds, size, shape)
+    rows = evaluate.run(job)[0]
     return [estimate(rows[i : i + REPLICATES]) for i in range(0, len(rows), REPLICATES)]
 
 

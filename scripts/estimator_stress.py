@@ -21,7 +21,7 @@ from scipy import stats
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate import evaluate
 from montecarlo_brdf.files import write_text
 from montecarlo_brdf.sampling import points
 from montecarlo_brdf.statistics import Moments
@@ -35,10 +35,10 @@ def accumulation() -> dict[str, float]:
     """Relative errors of means of 2^40 samples."""
     from test_estimators import block, exact_mean, total
 
-    equal = Moments(float(work.CHUNK), 0.1, 0.0, 0.1)
+    equal = Moments(float(evaluate.CHUNK), 0.1, 0.0, 0.1)
     for _ in range(40 - 17):
         equal = total([equal, equal])
-    smooth = 1.0 + np.sin(np.linspace(0.0, 3.0, work.CHUNK))
+    smooth = 1.0 + np.sin(np.linspace(0.0, 3.0, evaluate.CHUNK))
     means = 0.7 + 0.01 * np.random.default_rng(3).standard_normal(4096)
     merged = total([Moments(2.0**28, float(m), 1.0, 1.0) for m in means])
     return {

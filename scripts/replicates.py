@@ -14,11 +14,10 @@ from scipy import stats
 
 from montecarlo_brdf.compile.layout import pack
 from montecarlo_brdf.estimate import moments
-from montecarlo_brdf.estimate.evaluate import evaluate
+from montecarlo_brdf.estimate.evaluate import Call, Job, evaluate
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.estimate.samplers import Subject
-from montecarlo_brdf.estimate.work import Ladder
 from montecarlo_brdf.sampling.points import NONE, SHAPES, stream
 from montecarlo_brdf.statistics import least_error
 
@@ -47,7 +46,8 @@ def means(q: Question, points: str, count: int, seed: int = 0, each: int = EACH)
     found, width = [], len(q.integrands)
     for first in range(0, count, BATCH):
         many = min(BATCH, count - first)
-        states = Ladder(entry, reals, width, key, many, first).states(each, shape)
+        job = Job(entry, reals, width, key, count, each, shape)
+        states = job.states(Call(first, many, 0, each))
         table = np.reshape(states, (many, width, moments.STATE))
         found.append(np.stack([table[:, :, 1], table[:, :, 2] / each]).transpose(2, 0, 1))
     return np.concatenate(found, axis=2)

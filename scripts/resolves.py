@@ -24,10 +24,10 @@ import montecarlo_brdf as mb
 from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.samplers import BLIND
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Kind, MeanClaim
 from montecarlo_brdf.judge.decide import decide
-from montecarlo_brdf.judge.mean import OF_F_ALONE
 from montecarlo_brdf.verify.run import SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "resolves.json"
@@ -63,7 +63,7 @@ def scaled(claim: MeanClaim, factor: float) -> MeanClaim:
 
     def measure(plan: Plan) -> list[Measurement]:
         found = claim.measure(plan)
-        keep = [bool(same_f and m.estimator in OF_F_ALONE) for m in found]
+        keep = [bool(same_f and m.estimator in BLIND) for m in found]
         return [m if k else _scaled(m, factor) for m, k in zip(found, keep, strict=True)]
 
     return replace(claim, measure=measure, fallback=None)

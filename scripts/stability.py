@@ -15,8 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf import loading
+from montecarlo_brdf.arithmetic import types as arithmetic
 from montecarlo_brdf.files import write_text
-from montecarlo_brdf.stability import arithmetic, designed
+from montecarlo_brdf.stability import designed
 from montecarlo_brdf.stability.claims import reproduction
 from montecarlo_brdf.stability.stress import Loss, loss
 

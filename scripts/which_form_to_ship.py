@@ -6,7 +6,8 @@ import math
 from pathlib import Path
 from typing import Any
 
-from montecarlo_brdf.stability import arithmetic, designed, specimens
+from montecarlo_brdf.arithmetic import types as arithmetic
+from montecarlo_brdf.stability import designed, specimens
 from montecarlo_brdf.stability.stress import Loss, loss
 
 PAIRS = (

@@ -15,13 +15,13 @@ from typing import Any, NamedTuple
 from montecarlo_brdf import checks, loading
 from montecarlo_brdf.cli._options import numbers, parameter_sets
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.estimate.plan import check_theta
+from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.judge.finding import Policy, Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.text import called
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.toml import Keys, Table, parse
-from montecarlo_brdf.verify.question import Progress, shown_parameters
+from montecarlo_brdf.verify.question import shown_parameters
 from montecarlo_brdf.verify.run import ANGLES, SAMPLES, run
 from montecarlo_brdf.verify.supervision import Deadline
 

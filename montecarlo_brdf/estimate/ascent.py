@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import Layout
-from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate.evaluate import Job, run
 from montecarlo_brdf.estimate.moments import STATE, kernel_of, template_of
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
@@ -231,8 +231,8 @@ class Ascent:
         self.size = self.sizes[ints[NEXT]]
         shape = SHAPES[points](self.size) if points in SHAPES else NONE
         means, reals = self._setting.means(), self._reals[:]
-        job = work.Job(means, reals, width, self._key, self._many, self.size, shape)
-        rows = zip(*work.run(job, plan.threads, None, plan.sums), strict=True)
+        job = Job(means, reals, width, self._key, self._many, self.size, shape)
+        rows = zip(*run(job, plan.threads, plan.sums), strict=True)
         self.states = [x for row in rows for moments in row for x in moments]
         factor = self._reals[ints[AT] + FACTORS + ints[TAKEN]]
         ints[TAKEN] += 1

@@ -62,7 +62,7 @@ def directional_albedo(
         return _each(directional_albedo, model, p, theta_o_deg, rest)
     check_subject(model, p)
     chosen = check_method(method, target_error)
-    plan = Plan(points, samples, replicates, seed, threads, None, target_error, chosen)
+    plan = Plan(points, samples, replicates, seed, threads, target_error, chosen)
     wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
     if target_error is None and chosen is Choice.GIVEN:
         return _one(model, p, Quantity.ALBEDO, wo, sampler, plan)

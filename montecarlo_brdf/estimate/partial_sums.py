@@ -1,9 +1,9 @@
 """Partial sums of long jobs in a file, so that billions of samples survive an interruption.
 
-A job is cut into calls whose states merge in a fixed order (`work`): how many calls are done, and
-the states they have merged into, are all that a later run needs to end with the same bytes. A job
-is found again by the hash of everything it depends on, its kernel's machine code included; sums of
-another model, seed or version are never mixed in.
+A job is cut into calls whose states merge in a fixed order (`evaluate`): how many calls are done,
+and the states they have merged into, are all that a later run needs to end with the same bytes. A
+job is found again by the hash of everything it depends on, its kernel's machine code included; sums
+of another model, seed or version are never mixed in.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.statistics import Moments
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.estimate.work import Job
+    from montecarlo_brdf.estimate.evaluate import Job
 
 FORMAT = "brdf-check partial sums 1"
 EVERY = 10.0  # seconds between two writes

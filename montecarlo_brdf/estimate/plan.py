@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError, unknown
-from montecarlo_brdf.estimate import work
 from montecarlo_brdf.model import Model
 
 if TYPE_CHECKING:
     from montecarlo_brdf.estimate.partial_sums import PartialSums
+
+Progress = Callable[[float], None]  # gets the fraction done
 
 REPLICATES = 16
 MOST_SAMPLES = 1 << 40
@@ -33,7 +35,6 @@ class Plan(NamedTuple):
     replicates: int = REPLICATES
     seed: int = 0
     threads: int = 1
-    progress: work.Progress | None = None
     target_error: float | None = None  # relative; None: just the samples asked for
     method: Choice = Choice.GIVEN  # AUTO also without a target
     sums: PartialSums | None = None  # where long jobs keep how far they are

@@ -81,7 +81,7 @@ def _radiance(scene: Scene, plan: ScenePlan, wo: Vec) -> Measure:
 
 def _remembered(plan: ScenePlan, wo: Vec, sampling: Plan) -> list[Measurement]:
     """Views that share an evaluation share its estimates."""
-    at = (wo, sampling._replace(progress=None))
+    at = (wo, sampling)
     if at not in plan.known:
         plan.known[at] = radiance.measure(plan, wo, sampling)
     found: list[Measurement] = plan.known[at]

@@ -14,8 +14,8 @@ from montecarlo_brdf.bits import u64
 from montecarlo_brdf.compile.bind import Ints, Out, Reals, bound, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import Numbers, Unpack, pack
+from montecarlo_brdf.estimate.plan import Progress
 from montecarlo_brdf.estimate.samplers import functions_of
-from montecarlo_brdf.estimate.work import Progress
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key
 from montecarlo_brdf.scene import integrands, skies

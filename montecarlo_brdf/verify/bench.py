@@ -12,14 +12,14 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.estimators import directional_albedo
-from montecarlo_brdf.estimate.plan import check_theta
+from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.estimate.samplers import charts_of, samplers_of
 from montecarlo_brdf.judge.finding import versions
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.verify.converge import reference_of
-from montecarlo_brdf.verify.question import Progress, shown_parameters
+from montecarlo_brdf.verify.question import shown_parameters
 
 TARGETS = (1e-2, 1e-3, 1e-4, 1e-6)
 SIZES = tuple(1 << k for k in range(8, 25))  # 16 replicates: as far as there are lattices

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import equality
 from montecarlo_brdf.checks._truth import quadrature
-from montecarlo_brdf.estimate.plan import check_theta
+from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound, Report
 from montecarlo_brdf.model import Model, channels
@@ -16,7 +16,6 @@ from montecarlo_brdf.report.text import called
 from montecarlo_brdf.vectors import from_degrees
 from montecarlo_brdf.verify.furnace import ANGLES
 from montecarlo_brdf.verify.question import (
-    Progress,
     Question,
     Settings,
     answered,

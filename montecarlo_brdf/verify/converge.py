@@ -19,7 +19,7 @@ from montecarlo_brdf.checks import _draws, _truth
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.estimators import directional_albedo
 from montecarlo_brdf.estimate.evaluate import estimates
-from montecarlo_brdf.estimate.plan import Plan, check_theta
+from montecarlo_brdf.estimate.plan import Plan, Progress, check_theta
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import charts_of, integrand, samplers_of
 from montecarlo_brdf.judge.claim import Kind, Reference, Slope, SlopeClaim
@@ -29,7 +29,6 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import DIRECTIONS, Sampler
 from montecarlo_brdf.sampling.points import SETS, PointSet
 from montecarlo_brdf.verify.question import (
-    Progress,
     Question,
     Sets,
     Settings,

@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING, Any
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import furnace as check
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.estimate.plan import check_theta
+from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.estimate.samplers import SAMPLERS, samplers_of
 from montecarlo_brdf.files import check_writable, write_text
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify.question import (
     SAMPLES,
-    Progress,
     Question,
     Sets,
     Settings,

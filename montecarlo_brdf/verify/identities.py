@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.estimate.evaluate import evaluate
-from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan, Progress
 from montecarlo_brdf.estimate.quantity import Quantity, integrand
 from montecarlo_brdf.estimate.samplers import Subject
 from montecarlo_brdf.estimate.trust import Measurement
@@ -20,7 +20,7 @@ from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, MeanClaim, Re
 from montecarlo_brdf.judge.finding import Bound, Report, Result
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import NORMAL, Vec, from_degrees
-from montecarlo_brdf.verify.question import SAMPLES, Progress, Settings, decided, reported
+from montecarlo_brdf.verify.question import SAMPLES, Settings, decided, reported
 
 NAME = "identities"
 #: irradiance of the light 1 + 2 cos(theta): pi a + 2 pi b / 3 with a = 1, b = 2

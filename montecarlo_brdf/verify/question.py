@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.errors import TooSlow, UserError, unknown
 from montecarlo_brdf.estimate import probe
-from montecarlo_brdf.estimate.plan import Choice, Plan, check_method, check_samples
+from montecarlo_brdf.estimate.plan import Choice, Plan, Progress, check_method, check_samples
 from montecarlo_brdf.judge.claim import Claim
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 SAMPLES = 1 << 22
 INTERRUPTED = "interrupted"  # of what a report measured: whether it was
 PATIENCE = 20.0  # seconds for a few evaluations: sampling needs a million
-Progress = Callable[[float], None]  # gets the fraction done
 Sets: TypeAlias = "NamedTuple | list[Any] | None"  # one parameter set, several, the defaults
 Repeat = Callable[[Finding], str | None]  # the command line that gives a finding again
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan, Progress
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Property
@@ -22,7 +22,6 @@ from montecarlo_brdf.scene.scene import Scene, as_lobes
 from montecarlo_brdf.scene.standard import Standard, mend
 from montecarlo_brdf.verify.question import (
     SAMPLES,
-    Progress,
     Settings,
     decided,
     exactly,

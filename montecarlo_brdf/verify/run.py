@@ -14,11 +14,10 @@ from dataclasses import dataclass, field
 from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.errors import TooSlow
-from montecarlo_brdf.estimate.plan import Plan, check_theta
+from montecarlo_brdf.estimate.plan import Plan, Progress, check_theta
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify.question import (
-    Progress,
     Question,
     Sets,
     Settings,

@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.arithmetic.types import ladder, precision
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.estimate.plan import Plan
+from montecarlo_brdf.estimate.plan import Plan, Progress
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Report, Result
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.stability import designed
 from montecarlo_brdf.stability.claims import claims
 from montecarlo_brdf.stability.stress import Loss, loss
-from montecarlo_brdf.verify.question import Progress, part_of, reported
+from montecarlo_brdf.verify.question import part_of, reported
 
 #: Precisions that a model is held to unless it is asked for others by name.
 PROMISED = ("float32", "float64")

@@ -10,8 +10,9 @@ from bench.measure import quartiles
 from bench.workloads import integrand
 from montecarlo_brdf.compile import compiler
 from montecarlo_brdf.compile.layout import pack
-from montecarlo_brdf.estimate import moments, quantity, work
+from montecarlo_brdf.estimate import moments, quantity
 from montecarlo_brdf.estimate.estimators import directional_albedo
+from montecarlo_brdf.estimate.evaluate import Call, Job
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.sampling.directions import Sampler
@@ -42,7 +43,8 @@ def cosine_job(name: str, samples: int, points: str = "independent") -> Callable
     entry = moments.kernel_of(name, points, [mean], layout)
     reals = (*from_degrees(60.0), 0.0, *numbers)
     shape = SHAPES[points](samples) if points in SHAPES else NONE
-    return lambda: work.Ladder(entry, reals, 1, 1, 1).states(samples, shape)
+    job = Job(entry, reals, 1, 1, 1, samples, shape)
+    return lambda: job.states(Call(0, 1, 0, samples))
 
 
 def rates(rounds: int) -> list[dict[str, Any]]:

@@ -262,16 +262,16 @@ def test_the_same_bytes_for_any_threads_cold_and_warm(tmp_path: Path, process: C
 def test_threads_are_really_used(monkeypatch: pytest.MonkeyPatch) -> None:
     """The test before this one proves nothing unless its work is spread over threads."""
     import montecarlo_brdf as mb
-    from montecarlo_brdf.estimate import work
+    from montecarlo_brdf.estimate import evaluate
 
     started: list[int] = []
 
-    class Pool(work.ThreadPoolExecutor):
+    class Pool(evaluate.ThreadPoolExecutor):
         def __init__(self, threads: int) -> None:
             started.append(threads)
             super().__init__(threads)
 
-    monkeypatch.setattr(work, "ThreadPoolExecutor", Pool)
+    monkeypatch.setattr(evaluate, "ThreadPoolExecutor", Pool)
     model = mb.load("ggx")
     for threads in (1, 2):
         mb.directional_albedo(

@@ -7,8 +7,8 @@ from typing import Any
 
 from montecarlo_brdf.compile.bind import Specialiser
 from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.estimate import evaluate
 from montecarlo_brdf.estimate import moments as template
-from montecarlo_brdf.estimate import work
 from montecarlo_brdf.estimate.quantity import Integrand, Quantity
 from montecarlo_brdf.estimate.samplers import integrand
 from montecarlo_brdf.model import Model
@@ -27,14 +27,14 @@ def named(model: Model, name: str) -> Integrand:
 
 
 def job(model: Model, rows: Sequence[Any], names: Sequence[str], points: str, key: int,
-        samples: int, replicates: int = 1) -> work.Job:  # fmt: skip
-    """What `evaluate` asks of `work.run`, with its key chosen here."""
+        samples: int, replicates: int = 1) -> evaluate.Job:  # fmt: skip
+    """What `evaluate` asks of `evaluate.run`, with its key chosen here."""
     layout, numbers = pack([model.prepared(p) for p in rows], template.QUERY)
     kinds = [named(model, n) for n in names]
     kernel = template.kernel_of(model.name, points, kinds, layout)
     shape = sets.SHAPES[points](samples) if points in sets.SHAPES else sets.NONE
     width = len(rows) * len(names)
-    return work.Job(kernel, (*WO, 0.0, *numbers), width, key, replicates, samples, shape)
+    return evaluate.Job(kernel, (*WO, 0.0, *numbers), width, key, replicates, samples, shape)
 
 
 def in_python(model: Model, p: Any, name: str) -> Callable[[Any], float]:

@@ -8,7 +8,7 @@ import kernels
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate.evaluate import CHUNK, Call, run
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import samplers_of
 from montecarlo_brdf.statistics import Moments
@@ -47,7 +47,7 @@ def test_kernel_equals_python(model_name: str, integrand: str) -> None:
     p = model.parameters()
     points = "sobol" if integrand.endswith("cosine") else "independent"
     job = kernels.job(model, [p], [integrand], points, 42, 256, replicates=2)
-    for replicate, got in enumerate(work.run(job)[0]):
+    for replicate, got in enumerate(run(job)[0]):
         x = list(kernels.values(model, p, integrand, points, 42, replicate, range(256)))
         assert close(got, kernels.moments(x))
 
@@ -55,7 +55,7 @@ def test_kernel_equals_python(model_name: str, integrand: str) -> None:
 def test_a_wrong_stream_would_be_seen() -> None:
     model = mb.load("oren_nayar")
     p = model.parameters()
-    got = work.run(kernels.job(model, [p], ["albedo_uniform"], "independent", 42, 256))[0][0]
+    got = run(kernels.job(model, [p], ["albedo_uniform"], "independent", 42, 256))[0][0]
     for key, replicate, first in ((43, 0, 0), (42, 1, 0), (42, 0, 1)):
         indices = range(first, first + 256)
         x = list(kernels.values(model, p, "albedo_uniform", "independent", key, replicate, indices))
@@ -69,7 +69,7 @@ def test_large_keys_and_counters(key: int, start: int) -> None:
     model = mb.load("oren_nayar")
     p = model.parameters()
     job = kernels.job(model, [p], ["albedo_uniform"], "independent", key, 1 << 41)
-    (got,) = work._call(job, work.Call(first=3, many=1, start=start, count=10))
+    (got,) = job.moments(Call(first=3, many=1, start=start, count=10))
     indices = range(start, start + 10)
     x = list(kernels.values(model, p, "albedo_uniform", "independent", key, 3, indices))
     assert close(got, kernels.moments(x))
@@ -80,33 +80,33 @@ def test_partial_blocks(count: int) -> None:
     model = mb.load("oren_nayar")
     p = model.parameters()
     job = kernels.job(model, [p], ["albedo_uniform"], "independent", 1, count, replicates=3)
-    for replicate, got in enumerate(work.run(job)[0]):
+    for replicate, got in enumerate(run(job)[0]):
         indices = range(count)
         x = list(kernels.values(model, p, "albedo_uniform", "independent", 1, replicate, indices))
         assert got.count == count and close(got, kernels.moments(x))
 
 
-@pytest.mark.parametrize("count", [work.CHUNK - 1, work.CHUNK, work.CHUNK + 1, 5 * work.CHUNK + 3])
+@pytest.mark.parametrize("count", [CHUNK - 1, CHUNK, CHUNK + 1, 5 * CHUNK + 3])
 def test_every_sample_is_counted_once(count: int) -> None:
     model = mb.load("oren_nayar")
     p = model.parameters()
     job = kernels.job(model, [p], ["albedo_uniform"], "independent", 1, count, replicates=3)
     ranges: dict[int, list[tuple[int, int]]] = {0: [], 1: [], 2: []}
-    for call in work.calls(job):
+    for call in job.calls():
         for r in range(call.first, call.first + call.many):
             ranges[r].append((call.start, call.start + call.count))
     for spans in ranges.values():
         ends = [0, *(b for _, b in spans)]
         assert [a for a, _ in spans] == ends[:-1] and ends[-1] == count
-    assert [m.count for m in work.run(job)[0]] == [count] * 3
+    assert [m.count for m in run(job)[0]] == [count] * 3
 
 
-@pytest.mark.parametrize("count", [100, 5 * work.CHUNK + 3])
+@pytest.mark.parametrize("count", [100, 5 * CHUNK + 3])
 def test_threads_change_no_bit(count: int) -> None:
     model = mb.load("oren_nayar")
     p = model.parameters()
     job = kernels.job(model, [p], ["albedo_uniform"], "independent", 1, count, replicates=5)
-    assert work.run(job, 1) == work.run(job, 2) == work.run(job, 7) == work.run(job, 1)
+    assert run(job, 1) == run(job, 2) == run(job, 7) == run(job, 1)
 
 
 def test_small_replicates_share_calls_and_change_no_bit() -> None:
@@ -114,8 +114,8 @@ def test_small_replicates_share_calls_and_change_no_bit() -> None:
     model = mb.load("oren_nayar")
     p = model.parameters()
     job = kernels.job(model, [p], ["albedo_uniform"], "independent", 1, 1500, replicates=100)
-    alone = [work._call(job, work.Call(r, 1, 0, 1500))[0] for r in range(100)]
-    assert work.run(job)[0] == alone
+    alone = [job.moments(Call(r, 1, 0, 1500))[0] for r in range(100)]
+    assert run(job)[0] == alone
 
 
 @pytest.mark.parametrize("names", [["albedo_cosine"], ["albedo_uniform", "albedo_cosine"]])
@@ -123,9 +123,9 @@ def test_channels_equal_single_runs(names: list[str]) -> None:
     """Not to the bit: another kernel may associate otherwise."""
     model = mb.load("oren_nayar")
     rows = [model.parameters(sigma=s) for s in (0.1, 0.2, 0.6)]
-    together = work.run(kernels.job(model, rows, names, "sobol", 4, 2048, replicates=4))
+    together = run(kernels.job(model, rows, names, "sobol", 4, 2048, replicates=4))
     single = [
-        row for p in rows for row in work.run(kernels.job(model, [p], names, "sobol", 4, 2048, 4))
+        row for p in rows for row in run(kernels.job(model, [p], names, "sobol", 4, 2048, 4))
     ]
     assert len(together) == len(single) == len(rows) * len(names)
     for a, b in zip(together, single, strict=True):
@@ -135,18 +135,10 @@ def test_channels_equal_single_runs(names: list[str]) -> None:
 def test_a_constant_has_no_spread() -> None:
     model = mb.load("lambert")
     p = model.parameters(albedo=0.7)
-    job = kernels.job(model, [p], ["albedo_cosine"], "independent", 1, 3 * work.CHUNK + 17)
-    (got,) = work.run(job)[0]
+    job = kernels.job(model, [p], ["albedo_cosine"], "independent", 1, 3 * CHUNK + 17)
+    (got,) = run(job)[0]
     assert got.squares == 0.0 and got.mean == got.largest
     assert abs(got.mean - 0.7) <= 2.0**-53
-
-
-def test_progress_reaches_the_end() -> None:
-    model = mb.load("lambert")
-    job = kernels.job(model, [model.parameters()], ["albedo_cosine"], "sobol", 1, 4 * work.CHUNK)
-    seen: list[float] = []
-    work.run(job, 2, seen.append)
-    assert seen == sorted(seen) and seen[-1] == 1.0
 
 
 def test_not_a_number_and_infinity_stay_visible(user_file: Any) -> None:

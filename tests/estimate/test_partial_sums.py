@@ -13,14 +13,14 @@ from conftest import Outcome
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate.evaluate import CHUNK, Call, Job, run
 from montecarlo_brdf.estimate.partial_sums import PartialSums
 
 MANY = ["furnace", "--model", "ggx", "--theta-o", "40", "--sampler", "cosine", "--points",
         "independent", "--tolerance", "1e-7", "--samples", "2^22", "--format", "json"]  # fmt: skip
 
 
-def job(seed: int = 5, samples: int = 3 * work.CHUNK + 1000, model: str = "ggx") -> work.Job:
+def job(seed: int = 5, samples: int = 3 * CHUNK + 1000, model: str = "ggx") -> Job:
     loaded = mb.load(model)
     names = ["albedo_cosine", "albedo_uniform"]
     return kernels.job(loaded, [loaded.parameters()], names, "independent", seed, samples, 2)
@@ -30,38 +30,46 @@ class Stopped(Exception):
     """What Ctrl-C is to these tests."""
 
 
-def stopped_after(calls: int, threads: int) -> str:
-    """The file's content when a job was stopped after some of its calls."""
-    written: list[str] = []
-    sums = PartialSums(written.append)
-    seen: list[float] = []
+class Counted(PartialSums):
+    """Partial sums that know after how many calls they were asked, and stop after some."""
 
-    def progress(done: float) -> None:
-        seen.append(done)
-        if len(seen) == calls:
+    def __init__(self, content: str = "", stop: int = -1) -> None:
+        self.written: list[str] = []
+        super().__init__(self.written.append, content)
+        self.seen: list[int] = []
+        self.stop = stop
+
+    def keep(self, job: Job, calls: int, stacks: Any) -> None:
+        super().keep(job, calls, stacks)
+        self.seen.append(calls)
+        if calls == self.stop:
             raise Stopped
 
+
+def stopped_after(calls: int, threads: int) -> str:
+    """The file's content when a job was stopped after some of its calls."""
+    sums = Counted(stop=calls)
     with pytest.raises(Stopped):
-        work.run(job(), threads, progress, sums)
+        run(job(), threads, sums)
     sums.write()
-    return written[-1]
+    return sums.written[-1]
 
 
 @pytest.mark.parametrize("threads", [1, 3])
 @pytest.mark.parametrize("calls", [1, 3, 5, 7])
 def test_resumed_is_uninterrupted(calls: int, threads: int) -> None:
-    sums, seen = PartialSums(lambda text: None, stopped_after(calls, threads)), list[float]()
-    assert work.run(job(), 4 - threads, seen.append, sums) == work.run(job())
-    assert len(seen) == 8 - calls and seen[-1] == 1.0  # only what was missing
-    seen.clear()
-    assert work.run(job(), 1, seen.append, sums) == work.run(job()) and not seen
+    sums = Counted(stopped_after(calls, threads))
+    assert run(job(), 4 - threads, sums) == run(job())
+    assert sums.seen == list(range(calls + 1, 9))  # only what was missing
+    sums.seen.clear()
+    assert run(job(), 1, sums) == run(job()) and not sums.seen
 
 
 def test_only_the_same_job_is_resumed() -> None:
     sums = PartialSums(lambda text: None, stopped_after(3, 1))
     assert sums.begun(job()) is not None
     assert sums.begun(job(seed=6)) is None
-    assert sums.begun(job(samples=4 * work.CHUNK)) is None
+    assert sums.begun(job(samples=4 * CHUNK)) is None
     assert sums.begun(job()._replace(kernel=job(model="beckmann").kernel)) is None
 
 
@@ -86,13 +94,13 @@ def test_furnace_resumes(
     whole = json.loads(cli(*MANY).out)["results"]
     called: list[Any] = []
 
-    def once(job: work.Job, call: work.Call, real: Any = work._call) -> Any:
+    def once(job: Job, call: Call, real: Any = Job.moments) -> Any:
         called.append(call)
         if len(called) == stop:
             raise KeyboardInterrupt
         return real(job, call)
 
-    monkeypatch.setattr(work, "_call", once)
+    monkeypatch.setattr(Job, "moments", once)
     file = tmp_path / "sums.json"
     stop = 30
     assert cli(*MANY, "--threads", "1", "--resume", file).code == 130
@@ -105,7 +113,7 @@ def test_furnace_resumes(
 
 def small(calls: list[Any]) -> int:
     """Calls of jobs so short that nothing of them is kept."""
-    return sum(call.count < work.CHUNK for call in calls)
+    return sum(call.count < CHUNK for call in calls)
 
 
 def test_mistakes(cli: Callable[..., Outcome], tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from conftest import Outcome
 import montecarlo_brdf as mb
 from montecarlo_brdf import references
 from montecarlo_brdf.cases.case import pointwise
-from montecarlo_brdf.estimate import adaptive, work
+from montecarlo_brdf.estimate import adaptive, evaluate
 from montecarlo_brdf.estimate.ends import ACROSS, Ends, at_ends
 from montecarlo_brdf.estimate.trust import Sight, heeding_ends, heeding_rejected, look, reason_unfit
 from montecarlo_brdf.statistics import Estimate, estimate
@@ -144,7 +144,7 @@ def test_intervals_hold_where_the_draw_nearest_to_an_end_makes_the_error() -> No
     method = next(m for m in adaptive.methods(model) if m.sampler == "own")
     setting = adaptive.prepare(model, p, type(p), method)
     reals = (*wo, setting.width, *setting.numbers)
-    rows = work.run(work.Job(setting.means(), reals, 1, 7, 16 * 1000, samples))[0]
+    rows = evaluate.run(evaluate.Job(setting.means(), reals, 1, 7, 16 * 1000, samples))[0]
     truth = references.albedo("ashikhmin_shirley", 1.0, **p._asdict())
     assert truth is not None
     found = [estimate(rows[k : k + 16]) for k in range(0, len(rows), 16)]

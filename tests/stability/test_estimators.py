@@ -1,7 +1,7 @@
 """Accumulation of billions of samples, and what hostile integrands do to it.
 
-Blocks and calls merge by `work._push` and `statistics.merged`; 2^40 samples are composed from the
-states of their calls, which are what a kernel would have returned, and held against exact sums.
+Blocks and calls merge by `evaluate._push` and `statistics.merged`; 2^40 samples are composed from
+the states of their calls, which are what a kernel would have returned, and held against exact sums.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.estimate import moments, work
+from montecarlo_brdf.estimate import evaluate, moments
 from montecarlo_brdf.statistics import Moments
 
 
@@ -27,11 +27,11 @@ def block(values: np.ndarray) -> Moments:
 
 
 def total(states: list[Moments]) -> Moments:
-    """States of calls merged as `work.run` merges them."""
+    """States of calls merged as `evaluate.run` merges them."""
     stack: list[tuple[int, Moments]] = []
     for state in states:
-        work._push(stack, state)
-    return work._total(stack)
+        evaluate._push(stack, state)
+    return evaluate._total(stack)
 
 
 def exact_mean(*parts: np.ndarray) -> Fraction:
@@ -40,7 +40,7 @@ def exact_mean(*parts: np.ndarray) -> Fraction:
 
 @pytest.mark.parametrize("constant", [0.1, 1.0 / 3.0, 1e150, 5e-324])
 def test_constant(constant: float) -> None:
-    one = Moments(float(work.CHUNK), constant, 0.0, constant)
+    one = Moments(float(evaluate.CHUNK), constant, 0.0, constant)
     many = one
     for _ in range(40 - 17):  # 2^40 samples: 23 doublings of a chunk of 2^17
         many = total([many, many])

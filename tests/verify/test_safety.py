@@ -22,7 +22,7 @@ from montecarlo_brdf import checks, load
 from montecarlo_brdf.compile.bind import bound
 from montecarlo_brdf.compile.kernel import Kernel
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.estimate import work
+from montecarlo_brdf.estimate import evaluate
 from montecarlo_brdf.estimate.estimators import directional_albedo
 from montecarlo_brdf.estimate.moments import BLOCK
 from montecarlo_brdf.verify import question
@@ -173,7 +173,7 @@ def test_cuts_never_show(monkeypatch: pytest.MonkeyPatch) -> None:
     p = model.parameters(alpha=0.2)
 
     def bits(seconds: float) -> list[str]:
-        monkeypatch.setattr(work, "LONGEST", seconds)
+        monkeypatch.setattr(evaluate, "LONGEST", seconds)
         sizes = (1000, 1 << 14, 48_000, (1 << 18) + 12_345)
         found = [
             directional_albedo(model, p, 45.0, points=points, samples=n, threads=threads)
@@ -195,8 +195,7 @@ def test_calls_of_a_slow_kernel_are_short(pace: float, most: int) -> None:
 
     kernel = Kernel(bound(int), "mine")
     kernel.pace = pace
-    ladder = work.Ladder(kernel, (0.0,), 1, key=1, replicates=3)
-    pieces = list(ladder._pieces(5000))
+    pieces = list(evaluate.pieces(kernel, 3, 5000))
     assert all(many * size <= most and done % BLOCK == 0 for _, many, done, size in pieces)
     samples = [
         (r, i)
