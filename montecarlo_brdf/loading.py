@@ -4,7 +4,10 @@ that a file defines to a Model, what they must be, and choices bound."""
 from __future__ import annotations
 
 import contextlib
+import functools
 import importlib
+import math
+import numbers
 import os
 import sys
 import traceback
@@ -15,7 +18,17 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf import mixture
 from montecarlo_brdf.errors import ModelError, UserError, unknown
-from montecarlo_brdf.model import Limit, Lobe, Model, NoParams, ParameterSet, parameter_type
+from montecarlo_brdf.model import (
+    KINKS,
+    LOBES,
+    PROPERTIES,
+    Limit,
+    Lobe,
+    Model,
+    NoParams,
+    ParameterSet,
+    parameter_type,
+)
 
 Namespace = Mapping[str, Any]
 FOLDER = Path(__file__).parent / "models"
@@ -143,6 +156,54 @@ def _is_pair(value: Any) -> bool:
     return isinstance(value, (list, tuple)) and len(value) == 2
 
 
+def _is_number(value: Any) -> bool:
+    real = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    return real and math.isfinite(float(value))
+
+
+def _is_function_of(count: int) -> Callable[[Any], bool]:
+    """Whether something can be called with so many arguments, as far as it tells."""
+
+    def fits(value: Any) -> bool:
+        code = getattr(value, "__code__", None)
+        return callable(value) and (code is None or code.co_argcount == count)
+
+    return fits
+
+
+def _are_from(allowed: Iterable[str]) -> Callable[[Any], bool]:
+    names = [str(name) for name in allowed]
+    return lambda value: all(isinstance(v, str) and v in names for v in value)
+
+
+def _is_set(value: Any) -> bool:
+    """Whether it is a parameter set, as `Params(albedo=1.0)`."""
+    return isinstance(value, tuple) and hasattr(value, "_fields") and all(map(_is_number, value))
+
+
+def _is_limit(value: Any) -> bool:
+    if not (_is_pair(value) and isinstance(value[0], Mapping) and isinstance(value[1], str)):
+        return False
+    return all(isinstance(k, str) and _is_number(v) for k, v in value[0].items())
+
+
+def _all(test: Callable[[Any], bool]) -> Callable[[Any], bool]:
+    return lambda value: isinstance(value, (list, tuple)) and all(map(test, value))
+
+
+def _kind(value: Any) -> str:
+    """'half vector', also of half_vector."""
+    return str(value).replace("_", " ")
+
+
+def _width(function: Callable[[Any], Any], p: Any) -> float:
+    """What a lobe's function says. Raises ModelError if that is no number."""
+    value = function(p)
+    if not _is_number(value):
+        raise ModelError(f"the width of a lobe must be a number, not {value!r}")
+    return float(value)
+
+
 def _is_parameters(value: Any) -> bool:
     defaults = getattr(value, "_field_defaults", None)
     named = isinstance(value, type) and issubclass(value, tuple) and defaults is not None
@@ -150,37 +211,58 @@ def _is_parameters(value: Any) -> bool:
 
 
 DICTIONARY = Rule(_is(Mapping), "a dictionary, not {!r}", dict)
-LIST = Rule(_is(list, tuple), "a list, not {!r}", tuple)
 NAME = Rule(_is(str), "a name, not {!r}")
+SETS = "parameter sets, as Params(albedo=1.0), not {!r}"
 #: The functions of the contract and their arguments.
 FUNCTIONS = {"f": "(wo, wi, p)", "sample": "(wo, u, p)", "pdf": "(wo, wi, p)", "prepare": "(p)"}
 #: All other members.
 MEMBERS = {
-    "albedo": Rule(callable, "a function (cos_theta_o, p), not {!r}"),
+    "albedo": Rule(_is_function_of(2), "a function (cos_theta_o, p), not {!r}"),
     "Params": Rule(_is_parameters, "a NamedTuple of numbers"),
     "domain": DICTIONARY,
     "choices": DICTIONARY,
-    "disclaims": DICTIONARY,
-    "verified": LIST,
-    "kinks": LIST,
+    "disclaims": Rule(
+        lambda value: isinstance(value, Mapping) and _are_from(PROPERTIES)(value),
+        f"a dictionary from some of {', '.join(PROPERTIES)} to a reason, not {{!r}}",
+        dict,
+    ),
+    "verified": Rule(_all(_is_set), f"a list of {SETS}", tuple),
+    "kinks": Rule(
+        lambda value: isinstance(value, (list, tuple)) and _are_from(KINKS)(value),
+        f"a list of some of {', '.join(KINKS)}, not {{!r}}",
+        tuple,
+    ),
     "same_as": NAME,
     "scales_with": NAME,
-    "isotropic": Rule(lambda value: True, "", bool),
+    "isotropic": Rule(_is(bool), "True or False, not {!r}"),
     "lossless": Rule(
-        _is(bool, list, tuple),
-        "True or a list of parameter sets, not {!r}",
+        lambda value: isinstance(value, bool) or _all(_is_set)(value),
+        f"True or a list of {SETS}",
         lambda value: value if isinstance(value, bool) else tuple(value),
     ),
     "limits": Rule(
-        lambda value: isinstance(value, (list, tuple)) and all(map(_is_pair, value)),
-        "a list of (changed parameters, model), not {!r}",
+        _all(_is_limit),
+        "a list of (changed parameters, model), as ({{'alpha': 1.0}}, 'lambert'), not {!r}",
         lambda value: tuple(Limit(*pair) for pair in value),
     ),
     "lobe": Rule(
-        lambda value: _is_pair(value) and callable(value[1]),
-        "(kind, function of p), not {!r}",
-        lambda value: Lobe(*value),
+        lambda value: _is_pair(value) and _kind(value[0]) in LOBES and callable(value[1]),
+        f"(kind, function of p), a kind being one of {', '.join(LOBES)}, not {{!r}}",
+        lambda value: Lobe(_kind(value[0]), functools.partial(_width, value[1])),
     ),
+}
+#: What the parts of an option must be.
+PARTS = {
+    "functions": Rule(
+        lambda value: isinstance(value, Mapping) and all(map(callable, value.values())),
+        "a dictionary of functions, not {!r}",
+    ),
+    "params": Rule(
+        lambda value: isinstance(value, Mapping) and all(map(_is_number, value.values())),
+        "a dictionary of numbers, not {!r}",
+    ),
+    "domain": MEMBERS["domain"],
+    "disclaims": MEMBERS["disclaims"],
 }
 
 
@@ -202,9 +284,9 @@ def build(
         added = [getattr(option, member) for option in options]
         given[member] = {k: v for each in (given.get(member, {}), *added) for k, v in each.items()}
     _check_domain(name, given["domain"])
-    if not choices:  # of which each brings parameters of its own
-        _known(f"parameter of model {name}", "domain", given["domain"], params._fields)
+    _check_names(name, given, (*params._fields, *_brought(choices)))
     given["domain"] = {k: v for k, v in given["domain"].items() if k in params._fields}
+    _check_defaults(name, params, given["domain"])
     return Model(
         name=name,
         doc=str(namespace.get("__doc__") or ""),
@@ -242,8 +324,15 @@ def _check_options(name: str, category: str, options: Any) -> None:
     if not isinstance(options, Mapping) or not options:
         raise ModelError(f"choices of model {name} needs a dictionary of options for {category}")
     for pick, option in options.items():
-        parts = option if isinstance(option, Mapping) else ()
-        _known("part of an option", f"{category}={pick} of model {name}", parts, Parts._fields)
+        where = f"{category}={pick} of model {name}"
+        if not isinstance(option, Mapping) and not callable(option):
+            must = f"a function, or a dictionary with some of {', '.join(PARTS)}"
+            raise ModelError(f"{where} must be {must}, not {option!r}")
+        parts = option if isinstance(option, Mapping) else {}
+        _known("part of an option", where, parts, Parts._fields)
+        for part, value in parts.items():
+            if not PARTS[part].fits(value):
+                raise ModelError(f"{part} of {where} must be {PARTS[part].must.format(value)}")
 
 
 def _check_arguments(name: str, member: str, value: Any) -> None:
@@ -261,6 +350,39 @@ def _check_domain(name: str, domain: Mapping[str, Any]) -> None:
             raise ModelError(
                 f"domain of model {name} must give (low, high) for {parameter}, not {ends!r}"
             )
+
+
+def _brought(choices: Mapping[str, Any]) -> list[str]:
+    """Parameters that any option of any choice brings."""
+    options = [o for picks in choices.values() for o in picks.values() if isinstance(o, Mapping)]
+    return [name for option in options for name in option.get("params", {})]
+
+
+def _check_names(name: str, given: Mapping[str, Any], parameters: tuple[str, ...]) -> None:
+    """Every parameter and model that a member names is one."""
+    lossless = given.get("lossless")
+    named = {
+        "domain": [*given["domain"]],
+        "scales_with": [given["scales_with"]] if "scales_with" in given else [],
+        "limits": [n for limit in given.get("limits", ()) for n in limit.changes],
+        "verified": [n for p in given.get("verified", ()) for n in p._fields],
+        "lossless": [n for p in lossless for n in p._fields] if isinstance(lossless, tuple) else [],
+    }
+    for member, words in named.items():
+        _known(f"parameter of model {name}", member, words, parameters)
+    models = {"limits": [limit.model for limit in given.get("limits", ())]}
+    models["same_as"] = [given["same_as"]] if "same_as" in given else []
+    for member, words in models.items():
+        plain = [word for word in words if word.isidentifier()]  # no path, no mixture
+        _known("model", f"{member} of model {name}", plain, tuple(names()))
+
+
+def _check_defaults(name: str, params: type[ParameterSet], domain: Mapping[str, Any]) -> None:
+    for parameter, value in params._field_defaults.items():
+        low, high = domain.get(parameter, (-math.inf, math.inf))
+        if not low <= value <= high:
+            outside = f"{parameter}={value:g} of model {name} lies outside its domain"
+            raise ModelError(f"the default {outside} [{low:g}, {high:g}]")
 
 
 def _known(kind: str, where: str, given: Iterable[str], allowed: tuple[str, ...]) -> None:

@@ -45,6 +45,10 @@ class Property(StrEnum):
 
 
 PROPERTIES = tuple(Property)
+#: where a lobe may sit
+LOBES = ("mirror", "half vector")
+#: where f may not be smooth
+KINKS = ("mu_i=mu_o", "cos_phi=0")
 
 
 class NoParams(NamedTuple):

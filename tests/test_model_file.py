@@ -201,7 +201,23 @@ REFUSED = {
     "domain = {'a': ('0', '1')}": "must give (low, high) for a",
     "domain = {'a': (0, 1)}": "domain: no parameter of model {} 'a'",
     "domain = 3": "domain of model {} must be a dictionary, not 3",
-    "verified = 3": "verified of model {} must be a list, not 3",
+    "verified = 3": "verified of model {} must be a list of parameter sets, as Params",
+    "verified = [{'b': 1}]": "verified of model {} must be a list of parameter sets",
+    "verified = [5]": "verified of model {} must be a list of parameter sets",
+    "same_as = 'lambrt'": "same_as of model {}: no model 'lambrt'; did you mean 'lambert'?",
+    "scales_with = 'albdo'": "scales_with: no parameter of model {} 'albdo'",
+    "lossless = [{'b': 1}]": "lossless of model {} must be True or a list of parameter sets",
+    "limits = [({'a': 1}, 'lambert')]": "limits: no parameter of model {} 'a'",
+    "limits = [({}, 'lambrt')]": "limits of model {}: no model 'lambrt'; did you mean 'lambert'?",
+    "limits = [({}, 5)]": "limits of model {} must be a list of (changed parameters, model)",
+    "disclaims = {'enrgy': 'x'}": "disclaims of model {} must be a dictionary from some of energy",
+    "kinks = ('mu_i=mo_o',)": "kinks of model {} must be a list of some of mu_i=mu_o, cos_phi=0",
+    "isotropic = 'no'": "isotropic of model {} must be True or False, not 'no'",
+    "lobe = ('mirrr', f)": "one of mirror, half vector, not ('mirrr',",
+    "albedo = lambda c: 0.5": "albedo of model {} must be a function (cos_theta_o, p)",
+    "choices = {'norm': {'a': 5}}": "norm=a of model {} must be a function, or a dictionary",
+    "choices = {'norm': {'a': {'params': {'x': 'y'}}}}": "params of norm=a of model {} must be",
+    "choices = {'norm': {'a': {'functions': {'g': 5}}}}": "functions of norm=a of model {} must be",
     "same_as = 3": "same_as of model {} must be a name, not 3",
     "lossless = 3": "lossless of model {} must be True or a list of parameter sets",
     "limits = [3]": "limits of model {} must be a list of (changed parameters, model)",
@@ -218,3 +234,36 @@ def test_a_member_that_cannot_mean_anything(declared: str, user_file: Write) -> 
     with pytest.raises(ModelError) as refused:
         mb.load(str(path))
     assert REFUSED[declared].format(path) in str(refused.value)
+
+
+PARAMETER = "from typing import NamedTuple\nclass Params(NamedTuple):\n    a: float = 0.8\n"
+
+
+def test_a_default_outside_its_domain(user_file: Write) -> None:
+    path = user_file(f"{PARAMETER}domain = {{'a': (0, 0.5)}}\ndef f(wo, wi, p):\n    return p.a\n")
+    with pytest.raises(ModelError, match=r"a=0.8 of model .* outside its domain \[0, 0.5\]"):
+        mb.load(str(path))
+
+
+def test_sets_of_the_files_own_parameters(user_file: Write) -> None:
+    path = user_file(f"{PARAMETER}verified = [Params(a=1.0)]\ndef f(wo, wi, p):\n    return p.a\n")
+    assert mb.load(str(path)).verified[0] == (1.0,)
+
+
+UNUSABLE = {
+    "def prepare(p):\n    return 5": "prepare of model {} must return a NamedTuple of numbers",
+    "def prepare(p):\n    return (np.zeros(3),)": "must return a NamedTuple of numbers and tuples",
+    "def prepare(p):\n    raise KeyError('b')": "prepare of model {} raised KeyError (line 5): 'b'",
+    "lobe = ('mirror', lambda p: 'x')": "the width of a lobe must be a number, not 'x'",
+    "lobe = ('mirror', lambda p: p.width)": "lobe of model {} raised AttributeError (line 4)",
+    "def albedo(c, p):\n    return 'x'": "albedo of model {} must return a number",
+    "def albedo(c, p):\n    return p.x": "albedo of model {} raised AttributeError (line 5)",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("declared", UNUSABLE)
+def test_a_member_that_gives_nothing_usable(declared: str, user_file: Write) -> None:
+    path = user_file(f"import numpy as np\ndef f(wo, wi, p):\n    return 0.1\n{declared}\n")
+    with pytest.raises(ModelError) as refused:
+        mb.furnace(mb.load(str(path)), theta_o_deg=30.0)
+    assert UNUSABLE[declared].format(path) in str(refused.value)

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from montecarlo_brdf.cases.case import Parameters, pointwise
+from montecarlo_brdf.estimate.probe import number_from
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, Reference
 from montecarlo_brdf.model import Model, Term
@@ -60,7 +61,8 @@ def _declared(model: Model, one: Parameters, mu: float) -> Reference:
     """What the model's file says, to rounding at the size that it has elsewhere: a sum that cancels
     at one angle leaves that much there."""
     assert model.albedo is not None
-    value, *others = (float(model.albedo(m, one)) for m in (mu, 0.1, 0.5, 1.0))
+    said = functools.partial(number_from, model, "albedo", model.albedo)
+    value, *others = (said(m, one) for m in (mu, 0.1, 0.5, 1.0))
     size = max((abs(v) for v in others if math.isfinite(v)), default=0.0)
     return Reference(value, ROUNDING * size, Kind.DECLARED, f"albedo() of {model.name}")
 

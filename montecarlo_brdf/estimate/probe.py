@@ -26,6 +26,9 @@ def check(model: Model, p: ParameterSet) -> None:
     model = model.of(p)
     for one in channels(p):
         ready = called(model, "prepare", model.prepared, one)
+        if model.prepare and not _is_prepared(ready):
+            must = f"a NamedTuple of numbers and tuples of numbers, not {_shown(ready)}"
+            raise ModelError(f"prepare of model {model.name} must return {must}")
         for wo in DIRECTIONS:
             for wi in DIRECTIONS:
                 _number(model, "f", called(model, "f", model.f, wo, wi, ready))
@@ -35,6 +38,16 @@ def check(model: Model, p: ParameterSet) -> None:
         if model.pdf:
             pair = DIRECTIONS[0], DIRECTIONS[1]
             _number(model, "pdf", called(model, "pdf", model.pdf, *pair, ready))
+        if model.albedo:
+            _number(model, "albedo", called(model, "albedo", model.albedo, 0.5, one))
+        if model.lobe:
+            called(model, "lobe", model.lobe.width, one)
+
+
+def _is_prepared(value: object, nested: bool = False) -> bool:
+    if isinstance(value, tuple):
+        return all(_is_prepared(v, nested=True) for v in value)
+    return nested and isinstance(value, numbers.Real)
 
 
 def _drawn(model: Model, ready: Prepared) -> tuple[Any, ...]:
@@ -56,6 +69,8 @@ def called(model: Model, member: str, function: Function, *arguments: Any) -> An
         return math.nan if isinstance(value, complex) else value  # a power of a negative number
     except (ZeroDivisionError, OverflowError):
         return math.nan
+    except ModelError:  # of a lobe: a sentence already
+        raise
     except (Exception, SystemExit) as error:
         if "math domain error" in str(error):
             return math.nan
