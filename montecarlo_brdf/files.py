@@ -1,4 +1,4 @@
-"""Writing results: whole or not at all."""
+"""Writing results: whole or not at all, and never over what was read."""
 from __future__ import annotations
 
 import contextlib
@@ -6,7 +6,26 @@ import os
 import tempfile
 from pathlib import Path
 
-from montecarlo_brdf.errors import OutputError
+from montecarlo_brdf.errors import OutputError, UserError
+
+_inputs: set[Path] = set()
+
+
+def know_input(path: Path) -> None:
+    """Remember that a file was read: nothing is written over it."""
+    with contextlib.suppress(OSError, RuntimeError):  # a name that no file can have
+        _inputs.add(path.resolve())
+
+
+def forget_inputs() -> None:
+    """Begin anew: what a command before this one read is its own."""
+    _inputs.clear()
+
+
+def check_no_input(path: Path) -> None:
+    """Raise UserError if `path` was read in this process."""
+    if path.resolve() in _inputs and path.is_file():
+        raise UserError(f"cannot write {path}: it is read here, and would be lost")
 
 
 def check_writable(path: Path) -> None:
@@ -22,10 +41,12 @@ def check_writable(path: Path) -> None:
         raise OutputError(f"cannot write {path}: {error.strerror or error}") from error
     if not allowed:
         raise OutputError(f"cannot write {path}: permission denied")
+    check_no_input(path)
 
 
 def write_bytes(path: Path, content: bytes) -> None:
     """Write beside the final name and move there: a reader never sees half a file."""
+    check_no_input(path)
     temporary = ""
     try:
         if path.exists() and not path.is_file():  # /dev/stdout, a pipe

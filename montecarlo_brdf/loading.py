@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf import mixture
 from montecarlo_brdf.errors import ModelError, UserError, unknown
+from montecarlo_brdf.files import know_input
 from montecarlo_brdf.model import (
     KINKS,
     LOBES,
@@ -72,6 +73,7 @@ def _from_file(path: Path) -> types.ModuleType:
     """Run a user's file as a module; its folder is importable while and after it runs."""
     if not os.path.isfile(path):  # also False for a name that no file can have
         raise UserError(f"no model file {path}")
+    know_input(path)
     folder = str(path.resolve().parent)
     if folder not in sys.path:
         sys.path.insert(0, folder)

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Self, TypeGuard
 
 from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.files import know_input
 
 Keys = tuple[str | int, ...]  # from the top of the file down; numbers count [[tables]]
 
@@ -26,8 +27,9 @@ class FileError(UserError):
 
 def parse(path: Path) -> tuple[dict[str, Any], str]:
     """The data and the text of a TOML file."""
+    know_input(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")  # a byte order mark says nothing here
         return tomllib.loads(text), text
     except OSError as error:
         raise UserError(f"cannot read {path}: {error.strerror or error}") from error

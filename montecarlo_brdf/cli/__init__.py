@@ -17,6 +17,7 @@ import click
 
 from montecarlo_brdf import __version__
 from montecarlo_brdf.errors import OutputError, UserError, unknown
+from montecarlo_brdf.files import forget_inputs
 
 INTERNAL_ERROR = 70
 INTERRUPTED = 130
@@ -90,6 +91,7 @@ def _leave_at_once(code: int) -> NoReturn:
 
 def execute(arguments: list[str]) -> int:
     """Exit code of a command line; every error becomes one sentence on stderr."""
+    forget_inputs()
     try:
         code = commands.main(arguments, prog_name="brdf-check", standalone_mode=False)
         sys.stdout.flush()

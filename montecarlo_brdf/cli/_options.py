@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import click
+from click.shell_completion import CompletionItem
 
 from montecarlo_brdf.errors import OutputError, UserError, unknown
 from montecarlo_brdf.files import check_writable, write_bytes, write_text
@@ -21,6 +22,8 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.report import formats
 
 MOST_VALUES = 10_000
+#: suffixes of files that are no reports
+OTHERS = (".py", ".toml", ".png", ".svg", ".pdf", ".npy", ".exr", ".hdr")
 MOST_DIGITS = 400  # of a number: more than any double has
 TEXT = "text"
 FORMATS = (TEXT, *formats.SUFFIXES)
@@ -134,6 +137,26 @@ class Read(click.ParamType):  # type: ignore[type-arg]  # generic only from clic
 WHOLE = Read(whole_number, "number")
 
 
+def file_name(text: str, what: str) -> Path:
+    """A path; of nothing there is none."""
+    if not text.strip():
+        raise ValueError("the name of a file is needed, not ''")
+    return Path(text)
+
+
+class FileName(Read):
+    """The name of a file, which a shell completes."""
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Leave it to the shell."""
+        return [CompletionItem(incomplete, type="file")]
+
+
+FILE = FileName(file_name, "file")
+
+
 def finite(allowed: str = "that is finite") -> Read:
     """A finite number in a range that is told."""
 
@@ -242,7 +265,7 @@ tolerance = partial(
     help="Allowed deviation: relative from a reference [default: 1e-4], absolute from a bound "
     "[default: 1e-5]. [--tolerance 1e-3]",
 )  # fmt: skip
-plot = partial(click.option, "--plot", type=click.Path(path_type=Path), metavar="FILE")
+plot = partial(click.option, "--plot", type=FILE, metavar="FILE")
 
 
 class Sampling(NamedTuple):
@@ -280,11 +303,11 @@ def output_options(command: Command) -> Command:
     return _gathered(command, "output", Output, [
         click.option("--format", "form", default=TEXT, show_default=True, metavar="FORM",
                      help=f"What stdout gets: {', '.join(FORMATS)}. [--format junit]"),
-        click.option("--export", "exports", type=click.Path(path_type=Path), metavar="FILE",
+        click.option("--export", "exports", type=FILE, metavar="FILE",
                      multiple=True,
                      help="Write the report in the format of the suffix: .json, .xml (JUnit), .md, "
                      ".csv; may be given more than once. [--export junit.xml]"),
-        click.option("--export-json", type=click.Path(path_type=Path), metavar="FILE",
+        click.option("--export-json", type=FILE, metavar="FILE",
                      help="Write the whole report. [--export-json report.json]"),
         click.option("--inconclusive", type=click.Choice([p.value for p in Policy]), default=None,
                      callback=lambda _, __, word: word and Policy(word),
@@ -326,6 +349,8 @@ class Output(NamedTuple):
             raise UserError(unknown("format", self.form, FORMATS))
         for path in filter(None, (self.export_json, self.plot, *self._files())):
             check_writable(path)
+        if self.export_json:
+            check_suffix(self.export_json, "json")
         if self.plot:
             from montecarlo_brdf.report.pictures import kind_of
 
@@ -339,6 +364,13 @@ class Output(NamedTuple):
                 raise UserError(unknown(f"format for {path}: suffix", path.suffix, known))
         found = {path: known[path.suffix] for path in self.exports}
         return {**found, **({self.export_json: "json"} if self.export_json else {})}
+
+
+def check_suffix(path: Path, form: str) -> None:
+    """Raise UserError if a name says that the file is of another format."""
+    ours = formats.SUFFIXES[form]
+    if path.suffix.lower() in {*formats.suffixes(), *OTHERS} - {ours}:
+        raise UserError(f"cannot write {form} to {path}: the name must end in {ours}")
 
 
 def import_format(output: Output) -> None:

@@ -30,7 +30,7 @@ Examples:
               help="The most processor time of one estimate. [--seconds 1]")
 @click.option("--quick", is_flag=True, help="A tenth of the time, and 4 seeds instead of 8.")
 @click.option("--json", "as_json", is_flag=True, help="Print the data as JSON, not as tables.")
-@click.option("--export", type=click.Path(path_type=Path), metavar="FILE",
+@click.option("--export", type=_options.FILE, metavar="FILE",
               help="Write the data as JSON. [--export time.json]")
 @_options.plot(help="Error against time, log-log, as PNG, SVG or PDF. [--plot time.png]")
 def command(
@@ -58,10 +58,12 @@ def command(
     from montecarlo_brdf.report.pictures import encoded, kind_of
     from montecarlo_brdf.verify.bench import bench
 
+    model = loading.load(spec)
     for path in filter(None, (export, plot)):
         files.check_writable(path)
+    if export:
+        _options.check_suffix(export, "json")
     kind = kind_of(plot) if plot else ""
-    model = loading.load(spec)
     sets = parameter_sets(model, assignments)
     if len(sets) > 1:
         raise UserError(f"bench takes one parameter set, not {len(sets)}: one value for each -p")

@@ -45,8 +45,8 @@ def command(
     from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify.compare import compare
 
-    output.check()
     first, second = loading.load(model), loading.load(other)
+    output.check()
     with progress(f"compare {first.name} {second.name}") as update:
         report = compare(
             first, second, pairs(first, second, assignments), theta_o, phi_o_deg=phi_o,

@@ -46,8 +46,8 @@ def command(
     from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify.converge import converge
 
-    output.check()
     model = loading.load(spec)
+    output.check()
     with progress(f"converge {model.name}") as update:
         report = converge(
             model, parameter_sets(model, assignments), theta_o, phi_o_deg=phi_o, sampler=sampler,

@@ -37,7 +37,7 @@ Examples:
               "keeps --sampler and --points. [--method auto]  "
               "[default: auto with --target-error]")  # fmt: skip
 @_options.sampling_options
-@click.option("--resume", type=click.Path(path_type=Path), default=None, metavar="FILE",
+@click.option("--resume", type=_options.FILE, default=None, metavar="FILE",
               help="Keep partial sums in FILE, every ten seconds and at Ctrl-C, and go on from "
               "them: for billions of samples. [--resume sums.json]")  # fmt: skip
 @_options.output_options
@@ -59,15 +59,14 @@ def command(
     from montecarlo_brdf.verify import furnace
     from montecarlo_brdf.verify.question import merged, part_of
 
+    models, reports = [loading.load(one) for one in models_of(spec)], []
     output.check()
-    specs, reports = models_of(spec), []
     with furnace.partial_sums(resume) as sums, progress("furnace") as update:
-        for k, one in enumerate(specs):
-            model = loading.load(one)
+        for k, model in enumerate(models):
             report = furnace.furnace(
                 model, parameter_sets(model, assignments), theta_o, phi_o_deg=phi_o,
                 sampler=sampler, target_error=target_error, method=method,
-                progress=part_of(update, k, len(specs)),
+                progress=part_of(update, k, len(models)),
                 curve=bool(output.plot or output.export_json), sums=sums, **sampling.keywords(),
             )  # fmt: skip
             reports.append(report)

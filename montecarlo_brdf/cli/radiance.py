@@ -26,7 +26,7 @@ Examples:
 @click.command(
     "radiance", epilog=EPILOG, short_help="Reflected radiance of a scene, with verdicts."
 )
-@click.argument("scene", required=False, type=click.Path(path_type=Path))
+@click.argument("scene", required=False, type=_options.FILE)
 @_options.model(help="Without a scene file: the model of the surface. [--model ggx]")
 @_options.parameters(
     help="A parameter of the surface's model; a/b/c makes a colour. [-p alpha=0.1]"
@@ -58,8 +58,8 @@ def command(
     from montecarlo_brdf.scene.read import with_views
     from montecarlo_brdf.verify.radiance import WEIGHTS, radiance
 
-    output.check()
     made = scene_from(scene, spec, environment, assignments)
+    output.check()
     if theta_o is not None:
         made = with_views(made, theta_o)
     with progress(f"radiance {made.name}") as update:

@@ -33,8 +33,8 @@ Examples:
 @click.command(
     "render", epilog=EPILOG, short_help="A sphere under a scene's light; the furnace picture."
 )
-@click.argument("scene", required=False, type=click.Path(path_type=Path))
-@click.option("-o", "--output", "outputs", type=click.Path(path_type=Path), multiple=True,
+@click.argument("scene", required=False, type=_options.FILE)
+@click.option("-o", "--output", "outputs", type=_options.FILE, multiple=True,
               required=True, metavar="FILE",
               help="A .png picture; .npy or .exr for linear values. [-o sphere.png]")  # fmt: skip
 @_options.model(help="Without a scene file: the model of the surface. [--model ggx]")
@@ -72,9 +72,6 @@ def command(
     from montecarlo_brdf.vectors import from_degrees
     from montecarlo_brdf.verify.question import all_threads, part_of
 
-    for path in outputs:
-        check_writable(path)
-        spheres.kind_of(path)
     for name, value, low, high in (("size", size, 8, 4096), ("samples", samples, 1, 1 << 20)):
         if not low <= value <= high:
             raise UserError(f"{name} must be a whole number from {low} to {high}, not {value}")
@@ -88,6 +85,9 @@ def command(
         scenes, columns = _from_model(spec, sky, assignments)
     else:
         raise UserError("give a scene file, or --model with --environment or --furnace")
+    for path in outputs:
+        check_writable(path)
+        spheres.kind_of(path)
     made = []
     with progress("render") as update:
         for k, (label, shown) in enumerate(scenes):

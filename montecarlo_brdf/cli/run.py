@@ -39,7 +39,7 @@ Examples:
 @click.command("run", epilog=EPILOG, short_help="Every check of one, several or all models.")
 @_options.model()
 @_options.parameters()
-@click.option("--config", type=click.Path(path_type=Path), metavar="FILE",
+@click.option("--config", type=_options.FILE, metavar="FILE",
               help="Without --model: what to check, instead of the nearest brdf-check.toml or "
               "[tool.brdf-check] of a pyproject.toml. [--config ci/brdf-check.toml]")  # fmt: skip
 @click.option("--check", "names", type=Read(listed), default="all", show_default=True,
@@ -54,7 +54,7 @@ Examples:
               help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
 @click.option("--effort", type=finite("in (0, 1]"), default=1.0, show_default=True,
               help="Share of the pairs, places and nodes that checks look at. [--effort 0.1]")
-@click.option("--baseline", type=click.Path(path_type=Path), metavar="REPORT.json",
+@click.option("--baseline", type=_options.FILE, metavar="REPORT.json",
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
               "[--baseline main.json]")  # fmt: skip
 @_options.sampling_options
@@ -69,13 +69,15 @@ def command(
     Without --model: the models and cases of the project's brdf-check.toml (docs/ci.md)."""
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._requests import Terms, request
+    from montecarlo_brdf.files import know_input
     from montecarlo_brdf.report.json import read_report
     from montecarlo_brdf.verify.supervision import Deadline
 
-    output.check()
     finding.versions()  # imports what a report needs: no thread does yet, nor Ctrl-C
     _options.import_format(output)
     earlier = read_report(baseline) if baseline else None
+    if baseline:
+        know_input(baseline)
     if spec:
         keywords = sampling.keywords()
         threads = keywords.pop("threads")
@@ -88,6 +90,7 @@ def command(
         requests, threads = project.requests, sampling.threads
         max_time = max_time or project.max_time
         output = output._replace(inconclusive=output.inconclusive or project.inconclusive)
+    output.check()
     if max_time is not None and not max_time > 0.0:
         raise UserError(f"max-time must be a positive number of seconds, not {max_time}")
     report = gather(requests, threads, Deadline(math.inf if max_time is None else max_time))

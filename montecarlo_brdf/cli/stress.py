@@ -58,10 +58,10 @@ def command(
     from montecarlo_brdf.stability.specimens import load
     from montecarlo_brdf.verify.stress import stress
 
-    output.check()
     if bool(spec) == bool(compare):
         raise UserError("stress takes either --model MODEL or --compare A B")
     models = [load(one) for one in compare or (spec,) if one]
+    output.check()
     sets = None
     if assignments:
         given = [parameter_sets(model, assignments) for model in models]

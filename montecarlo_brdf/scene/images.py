@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.files import know_input
 
 if TYPE_CHECKING:
     from numpy import float64
@@ -39,6 +40,7 @@ def read_image(path: Path) -> Radiance:
 
     if not os.path.isfile(path):
         raise UserError(f"no image file {path}")
+    know_input(path)
     kind = path.suffix.lower().lstrip(".")
     if kind not in READERS:
         raise UserError(f"image {path} must be a .png, .hdr, .exr or .npy file")

@@ -55,10 +55,10 @@ class Panel(NamedTuple):
 
 
 def kind_of(path: Path) -> str:
-    """ "png", "npy" or "exr"; OutputError unless it can be written here."""
+    """ "png", "npy" or "exr"; UserError for another, OutputError if it cannot be written here."""
     kind = path.suffix.lstrip(".").lower()
     if kind not in KINDS:
-        raise OutputError(f"cannot write {path}: the name must end in .png, .npy or .exr")
+        raise UserError(f"cannot draw {path}: the name must end in .png, .npy or .exr")
     if kind == "exr":
         try:
             _openexr()
