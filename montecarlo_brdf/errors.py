@@ -26,6 +26,10 @@ class ModelError(UserError):
     exit_code = 4
 
 
+class Raised(ModelError):
+    """Machine code met an exception of the model's, and does not tell which or where."""
+
+
 class TooSlow(UserError):
     """The model did not return in time, so nothing is known about it."""
 

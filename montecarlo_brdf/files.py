@@ -17,6 +17,11 @@ def know_input(path: Path) -> None:
         _inputs.add(path.resolve())
 
 
+def is_input(path: Path) -> bool:
+    """Whether a file was read."""
+    return path.resolve() in _inputs
+
+
 def forget_inputs() -> None:
     """Begin anew: what a command before this one read is its own."""
     _inputs.clear()
@@ -24,7 +29,7 @@ def forget_inputs() -> None:
 
 def check_no_input(path: Path) -> None:
     """Raise UserError if `path` was read in this process."""
-    if path.resolve() in _inputs and path.is_file():
+    if is_input(path) and path.is_file():
         raise UserError(f"cannot write {path}: it is read here, and would be lost")
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, TypedDict, Unpack
 
 from montecarlo_brdf import loading
-from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge.finding import Policy, Report, Verdict
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.text import case, failures
@@ -164,7 +164,7 @@ def require(report: Report, inconclusive: str = Policy.FAIL, reproducible: bool 
 
     report: of any question. inconclusive: "fail" or "pass", what an undecided claim is.
     reproducible: whether a command line can name the model. Raises AssertionError with all claims
-    that did not hold.
+    that did not hold, ModelError with them if the BRDF ended a check by an exception.
     """
     __tracebackhide__ = True
     bad = {Verdict.ERROR, Verdict.FAIL}
@@ -172,7 +172,8 @@ def require(report: Report, inconclusive: str = Policy.FAIL, reproducible: bool 
     lines = failures(report, bad, reproducible)
     if lines:
         cases = ", ".join(dict.fromkeys(case(r) for r in report.results))
-        raise AssertionError("\n".join([f"{cases}: {report.verdict}", *lines]))
+        text = "\n".join([f"{cases}: {report.verdict}", *lines])
+        raise ModelError(text) if report.verdict == Verdict.ERROR else AssertionError(text)
 
 
 def _loadable(model: Model) -> bool:

@@ -6,18 +6,22 @@ be loaded, compiled or raised, 5 output could not be written, 70 internal error,
 from __future__ import annotations
 
 import contextlib
+import functools
 import importlib
 import io
 import os
 import pkgutil
 import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any, NoReturn
 
 import click
 
 from montecarlo_brdf import __version__
-from montecarlo_brdf.errors import OutputError, UserError, unknown
-from montecarlo_brdf.files import forget_inputs
+from montecarlo_brdf.errors import ModelError, OutputError, UserError, unknown
+from montecarlo_brdf.files import forget_inputs, is_input
 
 INTERNAL_ERROR = 70
 INTERRUPTED = 130
@@ -49,10 +53,28 @@ class Commands(click.Group):
             raise UserError(unknown("command", name, self.list_commands(ctx)))
         module = importlib.import_module(f"{__name__}.{name}")
         command: click.Command = module.command
+        command.callback = _speaking_alone(command.callback)
         for option in command.params:
             if isinstance(option, click.Option):
                 option.envvar = environment_name(name, option)
         return command
+
+
+def _speaking_alone(callback: Callable[..., Any] | None) -> Callable[..., Any]:
+    """A command whose models print to stderr."""
+    assert callback is not None
+    if getattr(callback, "alone", False):
+        return callback
+
+    @functools.wraps(callback)
+    def call(*arguments: Any, **options: Any) -> Any:
+        from montecarlo_brdf.cli._terminal import answers_alone
+
+        with answers_alone():
+            return callback(*arguments, **options)
+
+    vars(call)["alone"] = True
+    return call
 
 
 def environment_name(command: str, option: click.Option) -> str:
@@ -74,10 +96,22 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a locale without the degree sign is no error
             stream.reconfigure(errors="replace")
+    os._exit = _ended_by_a_model  # type: ignore[assignment]
     code = execute(sys.argv[1:])
     if os.environ.get("BRDF_CHECK_DEBUG"):  # profilers want to see the end
         sys.exit(code)
     _leave_at_once(code)
+
+
+_exit, _ours = os._exit, os.getpid()
+
+
+def _ended_by_a_model(code: int) -> NoReturn:
+    """What a model's file gets for `os._exit`: its code, perhaps 0, would pass for a verdict."""
+    if os.getpid() != _ours:  # a process of its own
+        _exit(code)
+    _say(f"Error: the model ended the process by os._exit({code})", ModelError.exit_code)
+    _exit(ModelError.exit_code)
 
 
 def _leave_at_once(code: int) -> NoReturn:
@@ -86,7 +120,7 @@ def _leave_at_once(code: int) -> NoReturn:
     for stream in filter(None, (sys.stdout, sys.stderr)):
         with contextlib.suppress(OSError):
             stream.flush()
-    os._exit(code)
+    _exit(code)
 
 
 def execute(arguments: list[str]) -> int:
@@ -112,11 +146,23 @@ def execute(arguments: list[str]) -> int:
     except SystemExit as done:  # completion's: no verdict
         return OutputError.exit_code if done.code else 0
     except Exception as error:
+        if sentence := _of_a_model(error):
+            return _say(f"Error: {sentence}", ModelError.exit_code)
         if os.environ.get("BRDF_CHECK_DEBUG"):
             raise
         text = " ".join(f"{type(error).__name__}: {error}".split())
         return _say(f"internal error: {text} (BRDF_CHECK_DEBUG=1 shows where)", INTERNAL_ERROR)
     return code if isinstance(code, int) else 0
+
+
+def _of_a_model(error: Exception) -> str | None:
+    """'my_brdf.py raised KeyError (line 3)' if a user's file did, wherever it was called."""
+    for frame in reversed(traceback.extract_tb(error.__traceback__)):
+        if is_input(Path(frame.filename)):
+            from montecarlo_brdf.loading import raised
+
+            return f"{frame.filename} {raised(error, frame.filename)}"
+    return None
 
 
 def _sentence(error: click.ClickException) -> str:

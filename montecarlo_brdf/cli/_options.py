@@ -17,7 +17,7 @@ from click.shell_completion import CompletionItem
 
 from montecarlo_brdf.errors import OutputError, UserError, unknown
 from montecarlo_brdf.files import check_writable, write_bytes, write_text
-from montecarlo_brdf.judge.finding import Policy, Report, Verdict
+from montecarlo_brdf.judge.finding import Finding, Policy, Report, Verdict
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report import formats
 
@@ -356,6 +356,10 @@ class Output(NamedTuple):
 
             kind_of(self.plot)
 
+    def draws(self) -> bool:
+        """Whether a picture will be drawn of the report, now or later."""
+        return bool(self.plot or "json" in self._files().values())
+
     def _files(self) -> dict[Path, str]:
         """What to write besides pictures: file -> format."""
         known = formats.suffixes() if self.exports else {}
@@ -390,17 +394,25 @@ def deliver(report: Report, output: Output) -> int:
         write_bytes(output.plot, pictures.drawn(report, pictures.kind_of(output.plot)))
     for path, form in output._files().items():
         write_text(path, formats.render(report, form))
+    from montecarlo_brdf.cli import _terminal
+
     if output.form != TEXT:
-        click.echo(formats.render(report, output.form), nl=False)
+        click.echo(formats.render(report, output.form), file=_terminal.stdout(), nl=False)
     else:
-        from montecarlo_brdf.cli import _terminal
         from montecarlo_brdf.report import text
 
         _terminal.tell(text.render(report, output.verbose, _terminal.width(), _terminal.colour()))
     if output.form == "github":
         _summarise(report)
+    for sentence in dict.fromkeys(f.note for f in errors(report)):
+        click.echo(f"Error: {sentence}", err=True)
     undecided = report.verdict == Verdict.INCONCLUSIVE
     return policy.code if policy and undecided else report.exit_code
+
+
+def errors(report: Report) -> list[Finding]:
+    """Findings of models that could not be run."""
+    return [f for r in report.results for f in r.findings if f.verdict == Verdict.ERROR]
 
 
 def _summarise(report: Report) -> None:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf import checks, loading
 from montecarlo_brdf.cli._options import numbers, parameter_sets
-from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.judge.finding import Policy, Report
 from montecarlo_brdf.model import Model
@@ -77,6 +77,45 @@ class Request(NamedTuple):
         )  # fmt: skip
 
 
+class Broken(NamedTuple):
+    """A model that does not load, among others that do."""
+
+    name: str
+    error: ModelError
+
+    def title(self) -> str:
+        """Its name."""
+        return self.name
+
+    def single(self) -> list[Broken]:
+        """Itself."""
+        return [self]
+
+    def only(self, *names: str) -> Broken:
+        """Itself."""
+        return self
+
+    @property
+    def terms(self) -> Terms:
+        """It has one thing to say, whatever is asked."""
+        return Terms(("load",))
+
+    def run(
+        self, deadline: Deadline | None = None, threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> Report:  # fmt: skip
+        """What is wrong with it."""
+        raise self.error
+
+
+def unless_all_broken(requests: list[Request | Broken]) -> list[Request | Broken]:
+    """The requests. Raises what is wrong with the first if there is none that can be run."""
+    if all(isinstance(one, Broken) for one in requests):
+        for one in requests:
+            one.run()
+    return requests
+
+
 def request(model: Model, assignments: Sequence[str], terms: Terms) -> Request:
     """The request for parameters written as -p takes them."""
     if not assignments:
@@ -88,7 +127,7 @@ def request(model: Model, assignments: Sequence[str], terms: Terms) -> Request:
 class Project(NamedTuple):
     """What a file asks for."""
 
-    requests: list[Request]
+    requests: list[Request | Broken]
     max_time: float | None
     inconclusive: Policy | None
 
@@ -139,16 +178,20 @@ def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
     if not entries:
         raise top.error('there is nothing to check: add [[models]] with model = "ggx"')
     requests = [r for e in entries for r in _requests(e, terms, tolerances, overrides or {})]
-    return Project(requests, limit, policy)
+    return Project(unless_all_broken(requests), limit, policy)
 
 
 def _requests(
     entry: Table, terms: Terms, tolerances: dict[str, float], overrides: Mapping[str, Any]
-) -> Iterator[Request]:
+) -> Iterator[Request | Broken]:
     """The requests of one [[models]]: one for each tolerance that some of its checks have."""
     entry.know("model", "params", "against", *SHARED)
     terms, tolerances = _shared(entry, terms, tolerances)
-    model = _model(entry, "model")
+    try:
+        model = _model(entry, "model")
+    except ModelError as error:
+        yield Broken(entry.text_of("model"), error)
+        return
     if "against" in entry.data:
         terms = terms._replace(against=_model(entry, "against"))
     assignments = _assignments(entry)

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from typing import TextIO
 
 import click
 
@@ -21,9 +22,28 @@ CELLS = 40
 ERASE = "\r\x1b[K"
 
 
+_kept: list[TextIO] = []
+
+
+@contextlib.contextmanager
+def answers_alone() -> Iterator[None]:
+    """stdout is for what a command says: what a model's file prints meanwhile goes to stderr."""
+    _kept.append(sys.stdout)
+    try:
+        with contextlib.redirect_stdout(sys.stderr):
+            yield
+    finally:
+        _kept.pop()
+
+
+def stdout() -> TextIO:
+    """Where answers go."""
+    return _kept[-1] if _kept else sys.stdout
+
+
 def width() -> int:
     """Characters of a line: of the terminal, or what a page has room for."""
-    known = sys.stdout is not None and sys.stdout.isatty()
+    known = stdout() is not None and stdout().isatty()
     return shutil.get_terminal_size((PLAIN_WIDTH, 24)).columns if known else PLAIN_WIDTH
 
 
@@ -32,12 +52,12 @@ def colour() -> bool:
     if os.environ.get("NO_COLOR") or os.environ.get("TERM") in ("dumb", "unknown"):
         return False
     forced = os.environ.get("FORCE_COLOR")
-    return bool(forced) or (sys.stdout is not None and sys.stdout.isatty())
+    return bool(forced) or (stdout() is not None and stdout().isatty())
 
 
 def tell(text: str) -> None:
     """Print text that may have colours."""
-    click.echo(text, nl=not text.endswith("\n"), color=colour())
+    click.echo(text, file=stdout(), nl=not text.endswith("\n"), color=colour())
 
 
 @contextlib.contextmanager

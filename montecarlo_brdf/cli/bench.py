@@ -53,9 +53,10 @@ def command(
     channel counts. There is no verdict.
     """
     from montecarlo_brdf import files, loading
-    from montecarlo_brdf.cli._terminal import progress
+    from montecarlo_brdf.cli._terminal import progress, tell
     from montecarlo_brdf.report import bench as report
     from montecarlo_brdf.report.pictures import encoded, kind_of
+    from montecarlo_brdf.verify import failure
     from montecarlo_brdf.verify.bench import bench
 
     model = loading.load(spec)
@@ -68,11 +69,12 @@ def command(
     if len(sets) > 1:
         raise UserError(f"bench takes one parameter set, not {len(sets)}: one value for each -p")
     most, seeds = (0.1 * seconds, 4) if quick else (seconds, 8)
-    with progress(f"bench {model.name}") as update:
+    asked = failure.located(model, lambda: sets, [theta_o])
+    with progress(f"bench {model.name}") as update, asked:
         data = bench(model, sets[0], theta_o, phi_o_deg=phi_o, method=method.split(","),
                      seconds=most, seeds=seeds, progress=update)  # fmt: skip
     text = json.dumps(data, indent=1, allow_nan=False) + "\n"
-    click.echo(text if as_json else report.table(data), nl=False)
+    tell(text if as_json else report.table(data))
     if export:
         files.write_text(export, text)
     if plot:

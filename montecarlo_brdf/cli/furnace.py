@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 
 import click
 
 from montecarlo_brdf.cli import _options
 from montecarlo_brdf.cli._options import Read, finite, listed, models_of, parameter_sets
+from montecarlo_brdf.errors import ModelError
 
 EPILOG = """\b
 Examples:
@@ -57,17 +59,22 @@ def command(
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify import furnace
-    from montecarlo_brdf.verify.question import merged, part_of
+    from montecarlo_brdf.verify.question import failed, merged, part_of
 
     models, reports = [loading.load(one) for one in models_of(spec)], []
     output.check()
     with furnace.partial_sums(resume) as sums, progress("furnace") as update:
         for k, model in enumerate(models):
-            report = furnace.furnace(
-                model, parameter_sets(model, assignments), theta_o, phi_o_deg=phi_o,
-                sampler=sampler, target_error=target_error, method=method,
-                progress=part_of(update, k, len(models)),
-                curve=bool(output.plot or output.export_json), sums=sums, **sampling.keywords(),
+            ask = functools.partial(
+                furnace.furnace, model, parameter_sets(model, assignments), theta_o,
+                phi_o_deg=phi_o, sampler=sampler, target_error=target_error, method=method,
+                progress=part_of(update, k, len(models)), curve=output.draws(), sums=sums,
+                **sampling.keywords(),
             )  # fmt: skip
-            reports.append(report)
+            try:
+                reports.append(ask())
+            except ModelError as error:
+                if len(models) == 1:
+                    raise
+                reports.append(failed("furnace", model.name, error))
     return _options.deliver(merged(reports), output)

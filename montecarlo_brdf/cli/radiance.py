@@ -93,6 +93,8 @@ def scene_from(
 
 
 def _explain(rows: list[dict[str, Any]]) -> None:
+    from montecarlo_brdf.cli._terminal import tell
+
     for row in rows:
         saved = f" (saves up to {row['samples_saved']:.3g} samples)" if row["samples_saved"] else ""
-        click.echo(f"  {row['decision']:9}  {row['what']}: {row['why']}{saved}")
+        tell(f"  {row['decision']:9}  {row['what']}: {row['why']}{saved}")

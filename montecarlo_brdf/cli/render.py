@@ -65,11 +65,13 @@ def command(
     With --furnace a second panel shows the signed difference to the light from -10 % to +10 %. A
     picture is no verdict: see `brdf-check furnace` and `brdf-check radiance`.
     """
-    from montecarlo_brdf.cli._terminal import progress
+    from montecarlo_brdf.cli._terminal import progress, tell
     from montecarlo_brdf.files import check_writable, write_bytes
     from montecarlo_brdf.report.pictures import spheres
     from montecarlo_brdf.scene.render import render
+    from montecarlo_brdf.scene.scene import as_lobes
     from montecarlo_brdf.vectors import from_degrees
+    from montecarlo_brdf.verify import failure
     from montecarlo_brdf.verify.question import all_threads, part_of
 
     for name, value, low, high in (("size", size, 8, 4096), ("samples", samples, 1, 1 << 20)):
@@ -91,13 +93,14 @@ def command(
     made = []
     with progress("render") as update:
         for k, (label, shown) in enumerate(scenes):
-            one = render(
-                shown.under_constant_light(FURNACE) if furnace else shown, size=size,
-                samples=samples, seed=seed, threads=threads or all_threads(), camera=viewer,
-                progress=part_of(update, k, len(scenes)),
-            )  # fmt: skip
+            with failure.of_lobes(as_lobes(shown).lobes):
+                one = render(
+                    shown.under_constant_light(FURNACE) if furnace else shown, size=size,
+                    samples=samples, seed=seed, threads=threads or all_threads(), camera=viewer,
+                    progress=part_of(update, k, len(scenes)),
+                )  # fmt: skip
             made.append(one)
-            click.echo(_said(label, one, furnace))
+            tell(_said(label, one, furnace))
     labels = [label for label, _ in scenes]
     for path in outputs:
         light = FURNACE if furnace else None

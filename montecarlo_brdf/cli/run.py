@@ -11,12 +11,12 @@ import click
 
 from montecarlo_brdf.cli import _options
 from montecarlo_brdf.cli._options import Read, finite, listed, models_of
-from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge import finding
 from montecarlo_brdf.judge.finding import EXIT_CODES, Finding, Policy, Report, Result, Verdict
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cli._requests import Project, Request
+    from montecarlo_brdf.cli._requests import Broken, Project, Request, Terms
     from montecarlo_brdf.verify.supervision import Deadline
 
 INTERRUPTED = 130
@@ -68,7 +68,7 @@ def command(
     that reproduces it. Parameters without -p are searched over their range for the worst case.
     Without --model: the models and cases of the project's brdf-check.toml (docs/ci.md)."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._requests import Terms, request
+    from montecarlo_brdf.cli._requests import Terms
     from montecarlo_brdf.files import know_input
     from montecarlo_brdf.report.json import read_report
     from montecarlo_brdf.verify.supervision import Deadline
@@ -84,7 +84,7 @@ def command(
         other = loading.load(against) if against else None
         chosen = None if isinstance(names, str) else tuple(names)
         terms = Terms(chosen, theta_o, phi_o, other, effort=effort, **keywords)
-        requests = [request(loading.load(one), assignments, terms) for one in models_of(spec)]
+        requests = asked_models(models_of(spec), assignments, terms)
     else:
         project = asked_project(config, {**sampling._asdict(), "effort": effort})
         requests, threads = project.requests, sampling.threads
@@ -95,6 +95,22 @@ def command(
         raise UserError(f"max-time must be a positive number of seconds, not {max_time}")
     report = gather(requests, threads, Deadline(math.inf if max_time is None else max_time))
     return finish(report, output, earlier)
+
+
+def asked_models(
+    specs: Sequence[str], assignments: Sequence[str], terms: Terms
+) -> list[Request | Broken]:
+    """A request for each model."""
+    from montecarlo_brdf import loading
+    from montecarlo_brdf.cli import _requests
+
+    found: list[Request | Broken] = []
+    for spec in specs:
+        try:
+            found.append(_requests.request(loading.load(spec), assignments, terms))
+        except ModelError as error:
+            found.append(_requests.Broken(spec, error))
+    return _requests.unless_all_broken(found)
 
 
 def asked_project(config: Path | None, options: Mapping[str, object]) -> Project:
@@ -119,16 +135,22 @@ def given_options() -> set[str]:
     return {name for name in context.params if context.get_parameter_source(name) not in default}
 
 
-def gather(requests: Sequence[Request], threads: int | None, deadline: Deadline) -> Report:
+def gather(requests: Sequence[Request | Broken], threads: int | None, deadline: Deadline) -> Report:
     """One report over all requests, also when it is interrupted."""
     from montecarlo_brdf.cli._terminal import progress
-    from montecarlo_brdf.verify.question import merged, part_of
+    from montecarlo_brdf.verify.question import failed, merged, part_of
 
     reports: list[Report] = []
     try:
         with progress("run") as update:
             for k, one in enumerate(requests):
-                reports.append(one.run(deadline, threads, part_of(update, k, len(requests))))
+                part = part_of(update, k, len(requests))
+                try:
+                    reports.append(one.run(deadline, threads, part))
+                except ModelError as error:
+                    if len(requests) == 1:
+                        raise
+                    reports.append(failed("run", one.title(), error))
                 if reports[-1].measured["interrupted"]:
                     break
     except KeyboardInterrupt:  # between two runs
@@ -138,10 +160,10 @@ def gather(requests: Sequence[Request], threads: int | None, deadline: Deadline)
     return merged(reports)
 
 
-def _not_begun(request: Request) -> Report:
+def _not_begun(request: Request | Broken) -> Report:
     """What an interruption leaves of a request."""
     told = Finding("run", {}, Verdict.INCONCLUSIVE, note="not begun: interrupted")
-    result = Result(request.model.name, {}, "run", [told])
+    result = Result(request.title(), {}, "run", [told])
     return Report("run", {}, [result], {"seconds": 0.0, "interrupted": True})
 
 

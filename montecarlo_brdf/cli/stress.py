@@ -81,6 +81,7 @@ def show_point(model: Model, sets: Sequence[Any] | None, text: str) -> int:
     import numpy as np
 
     from montecarlo_brdf.arithmetic.types import exact, ladder
+    from montecarlo_brdf.cli._terminal import tell
     from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 
     components = numbers(text, "at")
@@ -92,8 +93,8 @@ def show_point(model: Model, sets: Sequence[Any] | None, text: str) -> int:
         q, value = rounded(p, one), math.nan
         if q is not None:
             value = float(Rung(model, one).f(one.array(wo), one.array(wi), q)[0])
-        click.echo(f"{one.name:10} {value!r}")
+        tell(f"{one.name:10} {value!r}")
     e = exact()
     truth = Rung(model, e).f(unit(wo, e), unit(wi, e), rounded(p, e))[0]
-    click.echo(f"{'truth':10} {float(truth)!r}  (50 digits, these directions renormalised)")
+    tell(f"{'truth':10} {float(truth)!r}  (50 digits, these directions renormalised)")
     return 0

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from montecarlo_brdf.compile import cache, compiler, layout, linking, native, twins
 from montecarlo_brdf.compile.bind import Bound, Function, Specialiser, bound
 from montecarlo_brdf.compile.cache import Fingerprint
-from montecarlo_brdf.errors import ModelError, UserError
+from montecarlo_brdf.errors import ModelError, Raised, UserError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -43,7 +43,7 @@ class Kernel:
 
     def __call__(self, ints: int, reals: int, out: int) -> None:
         if (self._entry or self.entry)(ints, reals, out) != 0:
-            raise ModelError(f"model {self._model} raised an exception while it was evaluated")
+            raise Raised(f"model {self._model} raised an exception while it was evaluated")
 
     @functools.cached_property
     def key(self) -> str:

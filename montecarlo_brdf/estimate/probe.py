@@ -31,17 +31,24 @@ def check(model: Model, p: ParameterSet) -> None:
             raise ModelError(f"prepare of model {model.name} must return {must}")
         for wo in DIRECTIONS:
             for wi in DIRECTIONS:
-                _number(model, "f", called(model, "f", model.f, wo, wi, ready))
+                evaluated(model, "f", wo, wi, ready)
         if model.sample:
-            for value in _drawn(model, ready):
-                _number(model, "sample", value)
+            evaluated(model, "sample", DIRECTIONS[0], UNIFORMS, ready)
         if model.pdf:
-            pair = DIRECTIONS[0], DIRECTIONS[1]
-            _number(model, "pdf", called(model, "pdf", model.pdf, *pair, ready))
+            evaluated(model, "pdf", DIRECTIONS[0], DIRECTIONS[1], ready)
         if model.albedo:
             _number(model, "albedo", called(model, "albedo", model.albedo, 0.5, one))
         if model.lobe:
             called(model, "lobe", model.lobe.width, one)
+
+
+def evaluated(model: Model, member: str, wo: Vec, other: Vec, ready: Prepared) -> None:
+    """Raise ModelError unless f, pdf or sample returns what it must."""
+    if member == "sample":
+        for value in _drawn(model, ready, wo, other):
+            _number(model, member, value)
+    else:
+        _number(model, member, called(model, member, getattr(model, member), wo, other, ready))
 
 
 def _is_prepared(value: object, nested: bool = False) -> bool:
@@ -50,10 +57,12 @@ def _is_prepared(value: object, nested: bool = False) -> bool:
     return nested and isinstance(value, numbers.Real)
 
 
-def _drawn(model: Model, ready: Prepared) -> tuple[Any, ...]:
+def _drawn(
+    model: Model, ready: Prepared, wo: Vec = DIRECTIONS[0], u: Vec = UNIFORMS
+) -> tuple[Any, ...]:
     """One result of `sample`, which the model has."""
     assert model.sample
-    drawn = called(model, "sample", model.sample, DIRECTIONS[0], UNIFORMS, ready)
+    drawn = called(model, "sample", model.sample, wo, u, ready)
     if not isinstance(drawn, tuple) or len(drawn) not in (3, 4):
         raise ModelError(
             f"sample of model {model.name} must return (x, y, z) or (x, y, z, weight), "

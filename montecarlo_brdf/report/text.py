@@ -218,7 +218,8 @@ def _check(result: Result) -> Row:
 def _finding(f: Finding, places: list[str]) -> Row:
     sign = "<= " if f.bound == Bound.AT_MOST else ""
     return (
-        *(coordinate(k, f.where.get(k)) for k in places), f.quantity, f.number,
+        *(coordinate(k, f.where.get(k)) for k in places), f.quantity,
+        f.number if f.verdict != Verdict.ERROR else "",
         "" if f.expected is None else f"{sign}{f.expected:.8g}",
         "" if f.tolerance is None else f"{f.tolerance:.1e}",
         "" if f.resolves is None else f"{f.resolves:.1e}", f.estimator or "",

@@ -14,6 +14,7 @@ from montecarlo_brdf.judge.finding import Bound, Report
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.report.text import called
 from montecarlo_brdf.vectors import from_degrees
+from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.furnace import ANGLES
 from montecarlo_brdf.verify.question import (
     Question,
@@ -50,7 +51,10 @@ def compare(
         case = Case(model.of(p), p, angles, phi_o_deg, tolerance=tolerance, seed=seed)
         questions.append(Question(title, case, functools.partial(claims, other=second, q=q)))
     told = {"theta_o_deg": angles, "phi_o_deg": phi_o_deg, "tolerance": tolerance, "seed": seed}
-    return answered("compare", told, questions, settings.plan, 1 + 2 * len(angles), progress)
+    count = 1 + 2 * len(angles)
+    theirs = [q for _, q in cases or ()] or [other.parameters()]
+    with failure.located(other, lambda: theirs, angles):
+        return answered("compare", told, questions, settings.plan, count, progress)
 
 
 def claims(case: Case, other: Model, q: NamedTuple) -> Iterator[ExactClaim]:

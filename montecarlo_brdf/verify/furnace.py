@@ -16,6 +16,7 @@ from montecarlo_brdf.estimate.samplers import SAMPLERS, samplers_of
 from montecarlo_brdf.files import check_writable, write_text
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.question import (
     SAMPLES,
     Question,
@@ -71,7 +72,10 @@ def furnace(
     report = answered("furnace", told, questions, settings.plan, count, progress)
     if not curve:
         return report
-    drawn = [check.curves(c.model, c.p, max(thetas), phi_o_deg) for c in cases]
+    drawn = []
+    for c in cases:
+        with failure.of_case(c):
+            drawn.append(check.curves(c.model, c.p, max(thetas), phi_o_deg))
     results = [replace(r, curves=c) for r, c in zip(report.results, drawn, strict=True)]
     return replace(report, results=results)
 

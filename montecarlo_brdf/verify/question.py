@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.errors import TooSlow, UserError, unknown
+from montecarlo_brdf.errors import ModelError, TooSlow, UserError, unknown
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.plan import Choice, Plan, Progress, check_method, check_samples
 from montecarlo_brdf.judge.claim import Claim
@@ -16,6 +16,7 @@ from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.points import SETS
+from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.supervision import Deadline, supervised
 
 if TYPE_CHECKING:
@@ -128,7 +129,8 @@ def answered(
         probed(case.model, case.p)
         part = part_of(progress, k, len(questions))
         claims = question.claims(case)
-        found = decided(claims, plan, case.model.disclaims, count=count, progress=part)
+        with failure.of_case(case):
+            found = decided(claims, plan, case.model.disclaims, count=count, progress=part)
         results.append(question.result(found))
     return reported(command, told, results, started)
 
@@ -167,13 +169,20 @@ def reported(
 
 
 def merged(reports: Sequence[Report]) -> Report:
-    """One report of several; the settings are those of the first."""
-    first = reports[0]
+    """One report of several; the settings are those of the first that has some."""
+    first = next((r for r in reports if r.settings), reports[0])
     measured = {"seconds": sum(r.measured["seconds"] for r in reports)}
     if INTERRUPTED in first.measured:
-        measured[INTERRUPTED] = any(r.measured[INTERRUPTED] for r in reports)
+        measured[INTERRUPTED] = any(r.measured.get(INTERRUPTED) for r in reports)
     results = [result for r in reports for result in r.results]
     return Report(first.command, first.settings, results, measured)
+
+
+def failed(command: str, model: str, error: ModelError) -> Report:
+    """The report on a model that does not run, among others that do."""
+    told = Finding(command, {}, Verdict.ERROR, note=str(error))
+    measured = {"seconds": 0.0, INTERRUPTED: False}
+    return Report(command, {}, [Result(model, {}, command, [told])], measured)
 
 
 def part_of(progress: Progress | None, k: int, n: int) -> Progress | None:

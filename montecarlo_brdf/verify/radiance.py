@@ -20,6 +20,7 @@ from montecarlo_brdf.scene.claims import reversed_scene
 from montecarlo_brdf.scene.plan import ScenePlan
 from montecarlo_brdf.scene.scene import Scene, as_lobes
 from montecarlo_brdf.scene.standard import Standard, mend
+from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.question import (
     SAMPLES,
     Settings,
@@ -55,12 +56,13 @@ def radiance(
     for lobe in as_lobes(scene).lobes:
         for p in dict.fromkeys(lobe.sets):
             probed(lobe.model, p)
-    plan = planning.make(scene, skip)
-    findings = decided(
-        _claims(scene, plan, tolerance, skip, energy), settings.plan, _disclaims(scene),
-        functools.partial(_repeat, scene, settings, skip), count=_count(scene, energy),
-        progress=progress,
-    )  # fmt: skip
+    with failure.of_lobes(as_lobes(scene).lobes):
+        plan = planning.make(scene, skip)
+        findings = decided(
+            _claims(scene, plan, tolerance, skip, energy), settings.plan, _disclaims(scene),
+            functools.partial(_repeat, scene, settings, skip), count=_count(scene, energy),
+            progress=progress,
+        )  # fmt: skip
     view = {"theta_o_deg": [*scene.view.theta_o_deg], "phi_o_deg": [*scene.view.phi_o_deg]}
     told = {**view, "skip": skip, "tolerance": tolerance, "plan": explained(plan, settings.plan)}
     result = Result(scene.name, {}, "radiance", _with_reading(scene, findings))

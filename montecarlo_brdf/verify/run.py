@@ -13,10 +13,11 @@ from dataclasses import dataclass, field
 
 from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case, searched
-from montecarlo_brdf.errors import TooSlow
+from montecarlo_brdf.errors import ModelError, TooSlow
 from montecarlo_brdf.estimate.plan import Plan, Progress, check_theta
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.question import (
     Question,
     Sets,
@@ -59,8 +60,9 @@ def run(
     progress: is called with the fraction done.
 
     Returns a Report with one Result per parameter set and check; an interruption returns what was
-    found so far, and says so in `measured`. Raises UserError for a bad value, ModelError if the
-    model does not run.
+    found so far, and says so in `measured`; a check that the model ends by an exception has the
+    verdict "error". Raises UserError for a bad value, ModelError if the model does not run in any
+    check.
     """
     asked = chosen("check", names or "all", checks.names())
     asked = [name for name in checks.names() if name in asked]
@@ -81,9 +83,17 @@ def run(
         why, interrupted = "interrupted", True
     told = {"checks": asked, "theta_o_deg": angles, "tolerance": tolerance, **settings.told()}
     results = [task.result(why) for group in groups for task in group]
+    _raise_if_nothing_ran(results)
     report = reported("run", told, results, started)
     report.measured["interrupted"] = interrupted
     return report
+
+
+def _raise_if_nothing_ran(results: Sequence[Result]) -> None:
+    """A model that fails in all checks does not run: that is no report."""
+    findings = [f for r in results for f in r.findings if f.verdict != Verdict.SKIPPED]
+    if findings and all(f.verdict == Verdict.ERROR for f in findings):
+        raise ModelError(str(findings[0].note))
 
 
 @dataclass
@@ -117,11 +127,15 @@ class Task:
         name, case, claims = self.question
         repeat = functools.partial(_repeat, case, name, settings)
         self.begun = True
-        for claim in claims(case):
-            if deadline.over():
-                return
-            self.findings.append(judged(claim, plan, case.model.disclaims, repeat))
-            tell()
+        try:
+            with failure.of_case(case):
+                for claim in claims(case):
+                    if deadline.over():
+                        return
+                    self.findings.append(judged(claim, plan, case.model.disclaims, repeat))
+                    tell()
+        except ModelError as error:
+            self.findings.append(Finding(name, {}, Verdict.ERROR, note=str(error)))
         self.done = True
         tell()
 

@@ -152,11 +152,11 @@ FILES = {
     ),
     "raises somewhere": (
         "def f(wo, wi, p):\n    if wi[2] < 0.01:\n        raise ValueError('low')\n    return 0.1",
-        "raised an exception while",
+        "raised ValueError (line 3): low at wo = (0.5, 0, 0.866025), wi = (",
     ),
     "returns None somewhere": (
         "def f(wo, wi, p):\n    if wi[2] > 0.05:\n        return 0.1",
-        "raised an exception while",
+        "must return a number, not None at wo = (0.5, 0, 0.866025), wi = (",
     ),
 }  # fmt: skip
 
