@@ -32,6 +32,10 @@ from montecarlo_brdf.statistics import Estimate, estimates_of
 from montecarlo_brdf.vectors import Vec
 
 LARGEST_NEED = 1 << 14  # samples of a replicate: beyond that the chart does not fit
+#: of the error three looks before, from which replicates do not converge: to 8 times the samples,
+#: two thirds of what lies between, even errors of independent points fall to 0.35
+STALLED = 0.5
+PROBING = 4  # replicates of the look that tells whether a method suits
 
 
 class Outcome(NamedTuple):
@@ -85,7 +89,7 @@ def _until(
 def suited(model: Model, p: ParameterSet, wo: Vec, plan: Plan) -> Method:
     """The first method that the probe accepts for a fixed number of samples."""
     size = max(FIRST, plan.samples // max(1, plan.replicates))
-    few = plan._replace(target_error=TARGETS[1], replicates=4)
+    few = plan._replace(target_error=TARGETS[1], replicates=PROBING)
     for method in methods(model):
         ascent = Ascent(prepare(model, p, hash(type(p)), method), wo, few, hopeless=0.0)
         ascent.look(1)
@@ -112,7 +116,7 @@ def _complaint(ascent: Ascent, chart: bool) -> str:
         return f"does not fit: a probed value needs {ascent.need:.0e} samples"
     if ascent.ended():
         return f"only reached {errors[-1]:.1e}"
-    if chart and len(errors) > 4 and errors[-1] > 0.5 * errors[-4]:
+    if chart and len(errors) > 4 and errors[-1] > STALLED * errors[-4]:
         return "does not fit: its replicates do not converge"
     return ""
 

@@ -27,6 +27,7 @@ INTEGRAND: Any = hole()
 
 #: cells towards each end of a number, and values of the other number in each
 OCTAVES, ACROSS = 24, 8
+MIDDLE = 0.375  # of the first cell, from 1/4 to 1/2
 GOLDEN = 0.6180339887498949  # the fraction of the golden ratio: its multiples never cluster
 #: the share of the draws in each cell, of half of them
 SHARES = tuple(0.5**k for k in range(OCTAVES))
@@ -111,7 +112,7 @@ def _numbers() -> array[float]:
 
 
 def _u(axis: int, end: int, j: int, share: float) -> Vec:
-    t, s, third = abs(end - 0.375 * share), (j + 0.5) / ACROSS, math.modf(0.5 + j * GOLDEN)[0]
+    t, s, third = abs(end - MIDDLE * share), (j + 0.5) / ACROSS, math.modf(0.5 + j * GOLDEN)[0]
     return (s, t, third) if axis else (t, s, third)
 
 

@@ -14,7 +14,6 @@ from montecarlo_brdf.stability.stress import Found, Loss
 
 #: Constants of a source are doubles: long double cannot be better.
 DOUBLE = 2.0**-52
-NOTHING = Reference(0.0, 0.0)  # no error is expected
 SEARCH = "search"
 #: what must not become of f, and how it is called
 BROKEN = {"nan": "NaN", "inf": "Inf", "negative": "negative"}
@@ -51,7 +50,7 @@ def _at_most(
         quantity,
         {"precision": loss.precision},
         Bound.AT_MOST,
-        NOTHING,
+        Reference(0.0, 0.0),
         most,
         lambda: found,
         property=None,

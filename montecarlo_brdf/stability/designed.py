@@ -22,6 +22,12 @@ ANGLES = (15.0, 37.0, 45.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99)
 #: Half vectors at these multiples of the lobe's width from the normal.
 WIDTHS = (0.01, 0.1, 0.3, 1.0, 2.0, 4.0, 8.0, 30.0)
 AZIMUTHS = 6
+#: of the partners of a direction, in radians from it, beside one rounding of 0 and of a full turn
+TURNS = (0.5, math.pi / 2, 2.0, math.pi - 1e-3, math.pi)
+ASIDE = math.radians(37.0)  # azimuth of the view, nothing special, beside 0
+WIDTH = 0.3  # of a lobe where a model declares none
+WIDE = 50.0  # ratio of a range's ends from which its logarithm is stepped through
+STEPS, FEW_STEPS, CORNERS = 9, 3, 16  # values of each parameter, and with `quick`; corners of all
 Grid = list[tuple[float, float]]  # (sine, cosine) of polar angles
 
 
@@ -47,7 +53,7 @@ def polar(arithmetic: Arithmetic, quick: bool) -> Grid:
 def directions(arithmetic: Arithmetic, width: float, quick: bool = False) -> Points:
     """All designed pairs for a lobe of the given width (of half vectors or around the mirror)."""
     grid = polar(arithmetic, quick)
-    turns = (0.0,) if quick else (0.0, math.radians(37.0))
+    turns = (0.0,) if quick else (0.0, ASIDE)
     wos = np.array([_at(s, c, phi) for s, c in grid for phi in turns])
     wos = arithmetic.array(wos)
     rows = [_partners(arithmetic, wo, grid, width) for wo in wos]
@@ -74,7 +80,7 @@ def _partners(arithmetic: Arithmetic, wo: Array, grid: Grid, width: float) -> An
 
 def _around(grid: Grid, phi: float, eps: float) -> Iterator[tuple[float, float, float]]:
     """The polar grid at azimuths in the plane, across it, nearly so, and about a full turn."""
-    turns = (0.0, eps, 0.5, math.pi / 2, 2.0, math.pi - 1e-3, math.pi, 2 * math.pi * (1 - eps))
+    turns = (0.0, eps, *TURNS, 2 * math.pi * (1 - eps))
     for (s, c), turn in itertools.product(grid, turns):
         yield _at(s, c, phi + turn)
 
@@ -109,7 +115,7 @@ def _exact(arithmetic: Arithmetic, wo: Array) -> Iterator[Any]:
 
 def width_of(model: Model, p: NamedTuple) -> float:
     """Width of the model's lobe as it declares it, or a width that is nothing special."""
-    return float(model.lobe[1](p)) if model.lobe else 0.3
+    return float(model.lobe[1](p)) if model.lobe else WIDTH
 
 
 def sharpness(model: Model) -> str | None:
@@ -127,9 +133,9 @@ def sharpness(model: Model) -> str | None:
 
 def steps(low: float, high: float, count: int) -> list[float]:
     """Values from low to high: by equal factors where the range is wide, else by equal steps."""
-    if low > 0.0 and high / low > 50.0:
+    if low > 0.0 and high / low > WIDE:
         return [min(high, low * (high / low) ** (k / (count - 1))) for k in range(count)]
-    if low == 0.0 and high > 50.0:  # exponents: 0 and decades
+    if low == 0.0 and high > WIDE:  # exponents: 0 and decades
         return [0.0, *(10.0 ** (k / 2) for k in range(-2, 1 + 2 * round(math.log10(high))))]
     inner = [low + (high - low) * k / (count - 1) for k in range(count)]
     return [inner[0], *([1e-6 * high, 1e-3 * high] if low == 0.0 else []), *inner[1:]]
@@ -140,11 +146,11 @@ def parameters(model: Model, quick: bool = False) -> list[Any]:
     base = model.parameters()
     found = [base, *(p for p in model.verified if type(p) is type(base))]
     for name, (low, high) in model.domain.items():
-        values = steps(low, high, 3 if quick else 9)
+        values = steps(low, high, FEW_STEPS if quick else STEPS)
         found += [
             base._replace(**{name: v}) for v in values[:: 2 if quick and len(values) > 5 else 1]
         ]
-    corners = itertools.islice(itertools.product(*model.domain.values()), 16)
+    corners = itertools.islice(itertools.product(*model.domain.values()), CORNERS)
     found += [base._replace(**dict(zip(model.domain, c, strict=True))) for c in corners]
     return list(dict.fromkeys(found))
 

@@ -14,6 +14,8 @@ from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 BLACK = 1e-20
 #: Where one rounding of the directions moves f by this part of itself, it has no digit to lose.
 UNDETERMINED = 0.25
+#: times what one rounding of the directions does: rounded inputs, and as much for the formula
+GRANTED = 2
 
 
 class Errors(NamedTuple):
@@ -84,27 +86,24 @@ def judged(
     largest = largest_of(np.where(real, size, truth_type.array(0.0)), points.group)
     granted = truth_type.array(type_.eps) * largest + truth_type.array(type_.least + BLACK)
     off = np.abs(shown - truth) - granted
+    beyond = off - GRANTED * conditioning
+    lost = (shown == 0) & (size >= type_.tiny) & (beyond > 0) & ~low
     kinds = {
         "nan": _is_nan(shown),
         "inf": _is_inf(shown) & (size <= type_.most),
         "negative": (shown < 0) & (truth >= 0) & (-shown > granted),
-        "flushed": (shown == 0)
-        & (size >= type_.tiny)
-        & (off > 2 * conditioning)
-        & ~low
-        & (conditioning < UNDETERMINED * size),
+        "flushed": lost & (conditioning < UNDETERMINED * size),
     }
     broken = (kinds["nan"] | kinds["inf"]) & ~low
     counted = real & (size <= type_.most) & (size > 0)
     size = np.where(counted, size, truth_type.array(1.0))
-    total = np.where(counted & (off > 0), _double(off / size), 0.0)
-    own = np.where(
-        counted & (off > 2 * conditioning), _double((off - 2 * conditioning) / size), 0.0
-    )
-    own = np.where(_double(conditioning / size) >= UNDETERMINED, 0.0, own)
-    return Errors(
-        value, truth, np.where(broken, np.inf, total), np.where(broken, np.inf, own), kinds, low
-    )
+    determined = ~(_double(conditioning / size) >= UNDETERMINED)
+
+    def relative(error: Array, judged: Array) -> Array:
+        some = np.where(counted & (error > 0) & judged, _double(error / size), 0.0)
+        return np.where(broken, np.inf, some)
+
+    return Errors(value, truth, relative(off, counted), relative(beyond, determined), kinds, low)
 
 
 def _together(wide: Rung, pairs: list[Any], q: NamedTuple) -> Any:

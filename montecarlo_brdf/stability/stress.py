@@ -22,6 +22,7 @@ MOST_EXACT, FEW_EXACT = 60, 20
 CLIMBS, ROUNDS = 6, 12
 FEW_CLIMBS, FEW_ROUNDS = 2, 4
 NEIGHBOURS = 48  # points around the worst one, in each round of a climb
+FARTHEST = 0.1  # of these from it
 KINDS = ("nan", "inf", "negative", "flushed")
 
 
@@ -221,7 +222,7 @@ def climb(
 
 def _neighbours(w: Array, arithmetic: Arithmetic, rng: np.random.Generator) -> Any:
     """Unit vectors around w, at distances from one rounding to a tenth, above the horizon."""
-    size = 10.0 ** rng.uniform(np.log10(arithmetic.eps), -1.0, (NEIGHBOURS, 1))
+    size = 10.0 ** rng.uniform(np.log10(arithmetic.eps), np.log10(FARTHEST), (NEIGHBOURS, 1))
     near = w.astype(np.float64) + size * rng.standard_normal((NEIGHBOURS, 3))
     near[:, 2] = np.abs(near[:, 2])
     near = arithmetic.array(near / np.linalg.norm(near, axis=1)[:, None])

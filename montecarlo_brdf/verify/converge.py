@@ -55,6 +55,10 @@ FIRST, CONSTANT = 4, 1e-13  # log2 of the fewest samples; an error below that is
 USABLE = 0.1  # relative error above which a lobe is not yet resolved
 USABLE_INDEPENDENT = 1.0  # independent points have the same slope at every N
 FEWEST = 4  # levels that a fit needs
+CLEAR = 10.0  # times the reference's own error, which then bends log2(error) by 0.14 at most
+LEAST = 0.05  # relative uncertainty of an error: no level decides a slope alone
+#: a reference that is estimated: the relative error asked for, and standard errors that bound it
+ESTIMATED, SURE = 1e-10, 4.0
 TARGETS = (1e-3, 1e-6, 1e-9)
 
 
@@ -117,9 +121,9 @@ def reference_of(case: Case) -> Reference:
     found = _truth.albedo(case.model, case.one, theta, case.phi_o_deg)
     if found is None or not found.value:
         e = directional_albedo(
-            case.model, case.one, theta, phi_o_deg=case.phi_o_deg, target_error=1e-10
+            case.model, case.one, theta, phi_o_deg=case.phi_o_deg, target_error=ESTIMATED
         )
-        found = Reference(e.mean, 4.0 * e.stderr, Kind.ADAPTIVE, e.method)
+        found = Reference(e.mean, SURE * e.stderr, Kind.ADAPTIVE, e.method)
     if not found.value:
         raise UserError(f"model {case.model.name} reflects nothing here: no relative error")
     return found
@@ -195,7 +199,7 @@ class Curve(NamedTuple):
         mean = math.fsum(squares) / len(squares)
         spread = math.fsum([(s - mean) ** 2 for s in squares]) / (len(squares) - 1)
         relative = math.sqrt(spread / len(squares)) / mean if mean else 0.0
-        return Level(n, math.sqrt(mean), max(0.5 * relative, 0.05) / math.log(2.0), each)
+        return Level(n, math.sqrt(mean), max(0.5 * relative, LEAST) / math.log(2.0), each)
 
     def fitted(self, levels: Sequence[Level]) -> Line | None:
         """The line through the levels that are of use, if there is any."""
@@ -227,7 +231,7 @@ def randomisations(points: str) -> int:
 
 def fitted(levels: Sequence[Level], floor: float, usable: float = USABLE) -> Line | None:
     """Weighted least squares; the spread about the line counts where it exceeds what R allows."""
-    used = [v for v in levels if max(10.0 * floor, CONSTANT) < v.error < usable]
+    used = [v for v in levels if max(CLEAR * floor, CONSTANT) < v.error < usable]
     if len(used) < FEWEST:
         return None
     weights = [v.uncertainty**-2 for v in used]
