@@ -15,6 +15,10 @@ from typing import NamedTuple
 FLOOR = 4.0 * 2.0**-52
 #: Characters of an estimate: 17 digits and what stands around them.
 LONGEST = 24
+#: Digits of an estimate that is exact to rounding.
+EXACT = 8
+#: What is smaller is printed with an exponent, as bounds and tolerances are.
+SMALL = 1e-4
 #: Values that differ by less than this, relative to their mean, are one value and its rounding.
 SAME = 1e-12
 #: Draws that differ from the others by their own size, but are fewer than this in a sample, are too
@@ -76,17 +80,15 @@ def with_error(value: float, error: float) -> str:
     """'0.68899(76)': the digits in brackets are the standard error of the last digits shown; just
     the value where nothing is known about its error.
 
-    '0.8(0)': exact to rounding, as the error is at most `FLOOR`. '6.8899(76)e-30': what would be
-    longer than a column can hold.
+    '0.8(0)': exact to rounding, as the error is at most `FLOOR`. '6.8899(76)e-30': what is small or
+    would be longer than a column can hold.
     """
-    if math.isfinite(value) and math.isnan(error):
-        return f"{value:.6g}"
     if not (math.isfinite(value) and math.isfinite(error)):
-        return f"{value:.6g}({error})"
+        return f"{value:.6g}"
     if error <= FLOOR * abs(value):
-        return f"{value:.15g}(0)"
+        return f"{value:.{EXACT if abs(value) >= SMALL else 2}g}(0)"
     text = _with_digits(value, error)
-    if len(text) <= LONGEST:
+    if len(text) <= LONGEST and (max(abs(value), error) >= SMALL or not value):
         return text
     power = int(f"{max(abs(value), error):e}".partition("e")[2])
     return f"{_with_digits(_shifted(value, power), _shifted(error, power))}e{power:+03d}"

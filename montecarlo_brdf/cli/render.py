@@ -100,7 +100,7 @@ def command(
                     progress=part_of(update, k, len(scenes)),
                 )  # fmt: skip
             made.append(one)
-            tell(_said(label, one, furnace))
+            tell(_said(label, one, samples, furnace))
     labels = [label for label, _ in scenes]
     for path in outputs:
         light = FURNACE if furnace else None
@@ -108,12 +108,13 @@ def command(
     return 0
 
 
-def _said(label: str, sphere: Sphere, furnace: bool) -> str:
+def _said(label: str, sphere: Sphere, samples: int, furnace: bool) -> str:
     import numpy as np
 
     shown = sphere.values[sphere.inside]
     text = f"{', '.join(label.splitlines())}: L_o from {shown.min():.6g} to {shown.max():.6g}"
-    text += f", {sphere.how}, error up to {sphere.error:.1e}"
+    exact = "of which no error is known" if samples == 1 and "per pixel" in sphere.how else "exact"
+    text += f", {sphere.how}, " + (f"error up to {sphere.error:.1e}" if sphere.error else exact)
     if furnace:
         d = shown / FURNACE - 1.0
         form = "+.3%" if np.abs(d).max() > 1e-4 else "+.1e"

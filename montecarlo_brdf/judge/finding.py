@@ -76,14 +76,18 @@ class Finding:
 
     @property
     def number(self) -> str:
-        """The value with its error bar: '0.68899(76)', '0.8(0)' if it is exact to rounding."""
-        return with_error(self.value, self.stderr)
+        """The value with its error bar: '0.68899(76)', '0.8(0)' if it is exact to rounding, '0' if
+        it is nothing but rounding; empty if nothing was evaluated."""
+        if self.verdict in (Verdict.ERROR, Verdict.SKIPPED) and math.isnan(self.value):
+            return ""
+        noise = self.expected == 0.0 and self.stderr == 0.0
+        return "0" if noise and self.as_wished else with_error(self.value, self.stderr)
 
     @property
     def as_wished(self) -> bool:
         """Whether the value is what is expected, to rounding: nothing happened where it is from."""
         wish = self.expected
-        return wish is not None and abs(self.value - wish) <= FLOOR * abs(wish)
+        return wish is not None and abs(self.value - wish) <= FLOOR * (abs(wish) or 1.0)
 
 
 @dataclass(frozen=True)

@@ -305,7 +305,7 @@ def _row(claim: MeanClaim, opinion: Opinion) -> dict[str, object]:
     elif opinion.verdict == Verdict.INCONCLUSIVE:
         row["not_used"] = (
             f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples: "
-            f"needs about {_more(claim, opinion):.0e}"
+            f"{_needs(claim, opinion)}"
         )
     return row
 
@@ -315,13 +315,21 @@ def _more(claim: MeanClaim, opinion: Opinion) -> float:
     return max(needed(claim, opinion), GROWTH * opinion.measurement.estimate.samples)
 
 
+def _needs(claim: MeanClaim, opinion: Opinion) -> str:
+    """'needs about 4e+06', or that no number helps."""
+    more = _more(claim, opinion)
+    return f"needs about {more:.0e}" if math.isfinite(more) else "more of them would not tell"
+
+
 def _note(claim: MeanClaim, verdict: Verdict, opinions: Opinions) -> str | None:
     """What an inconclusive finding needs."""
     if verdict != Verdict.INCONCLUSIVE:
         return None
     fit = [o for o in opinions if not o.measurement.unfit]
     if fit:
-        need = min(_more(claim, o) for o in fit)
-        samples = fit[0].measurement.estimate.samples
-        return f"undecided at {samples} samples: needs about {need:.0e}, allow more with --samples"
+        best = min(fit, key=lambda o: _more(claim, o))
+        told = f"undecided at {fit[0].measurement.estimate.samples} samples"
+        if math.isinf(_more(claim, best)):
+            return f"{told}: the reference is no more exact than the tolerance, or nothing varied"
+        return f"{told}: {_needs(claim, best)}, allow more with --samples"
     return opinions[0].measurement.unfit if opinions else None

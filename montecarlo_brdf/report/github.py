@@ -1,11 +1,18 @@
-"""GitHub Actions: workflow commands that annotate the line of the user's f.
+"""GitHub Actions: workflow commands that annotate the lines of the user's functions.
+
+GitHub shows ten of a kind in a step: there is one for each model and check, on the function that it
+is about, and the worst come first.
 
 The same run writes the Markdown report into $GITHUB_STEP_SUMMARY where that is set.
 """
 from __future__ import annotations
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
-from montecarlo_brdf.report.text import case, explanation, statement, tally
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from montecarlo_brdf.judge.finding import SEVERITY, Finding, Report, Result, Verdict
+from montecarlo_brdf.report.text import case, explanation, most_telling, statement, tally
 
 #: what is annotated, and how
 LEVELS = {Verdict.ERROR: "error", Verdict.FAIL: "error"}
@@ -13,18 +20,39 @@ LEVELS |= {Verdict.INCONCLUSIVE: "warning", Verdict.KNOWN: "notice"}
 
 
 def render(report: Report) -> str:
-    """One command per finding that needs attention, and a last line with the verdict."""
-    lines = [_command(r, f) for r in report.results for f in r.findings if f.verdict in LEVELS]
+    """One command per check that needs attention, and a last line with the verdict."""
+    told = [r for r in report.results if any(f.verdict in LEVELS for f in r.findings)]
+    lines = [_command(r) for r in sorted(told, key=lambda r: SEVERITY.index(r.verdict))]
     counts = tally(f for r in report.results for f in r.findings)
     return "\n".join([*lines, f"brdf-check {report.command}: {report.verdict}; {counts}"]) + "\n"
 
 
-def _command(result: Result, finding: Finding) -> str:
+def _command(result: Result) -> str:
+    finding = most_telling(replace(result, findings=_of_note(result.findings)))
     title = f"{case(result)} {result.check}: {finding.verdict}".strip()
-    where = {**result.source, "title": title}
+    where = {**_accused(result), "title": title}
     properties = ",".join(f"{name}={_property(str(value))}" for name, value in where.items())
-    message = "\n".join([statement(finding), *explanation(finding)])
+    alike = sum(f.verdict == finding.verdict for f in result.findings) - 1
+    more = [f"and {alike} more findings like it"] if alike else []
+    message = "\n".join([statement(finding), *more, *explanation(finding)])
     return f"::{LEVELS[finding.verdict]} {properties}::{_data(message)}"
+
+
+def _of_note(findings: Sequence[Finding]) -> list[Finding]:
+    return [f for f in findings if f.verdict in LEVELS]
+
+
+#: checks that are about another function than f
+ABOUT = {"pdf": "pdf", "sampling": "sample"}
+
+
+def _accused(result: Result) -> dict[str, Any]:
+    """File and line of the function that a check is about."""
+    if not result.source:
+        return {}
+    lines = result.source.get("functions", {})
+    line = lines.get(ABOUT.get(result.check, "f"), result.source["line"])
+    return {"file": result.source["file"], "line": line}
 
 
 def _data(text: str) -> str:

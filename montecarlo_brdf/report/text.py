@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections import Counter
+import re
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -13,7 +14,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.judge.finding import SEVERITY, Bound, Finding, Report, Result, Verdict, worst
 from montecarlo_brdf.report.columns import NO_BREAK, Column, Row, Style, painted, table
 
-SYMBOLS = {f"{a}_{d}_deg": f"{a}_{d}" for a in ("theta", "phi") for d in "oi"} | {"channel": "ch"}
+SYMBOLS = {f"{a}_{d}_deg": f"{a}_{d}" for a in ("theta", "phi") for d in "oi"}
 SIGNS = {Bound.AT_MOST: "<= ", Bound.AT_LEAST: ">= ", Bound.EQUAL: ""}
 #: what needs somebody's attention
 BAD = (Verdict.ERROR, Verdict.FAIL, Verdict.INCONCLUSIVE)
@@ -164,8 +165,7 @@ def _sections(report: Report, verbose: bool) -> Iterator[Section]:
     elif report.command == "run" and not verbose:
         for group in grouped(report.results):
             rows = [_check(result) for result in group if result.findings]
-            sentences = (s for r in group for s in _attention(r, verbose, f"{r.check}: "))
-            yield Section(case(group[0]), CHECK, rows, sentences)
+            yield Section(case(group[0]), CHECK, rows, _of_checks(group))
     else:
         for result in report.results:
             places = list(dict.fromkeys(k for f in result.findings for k in f.where))
@@ -219,7 +219,7 @@ def _finding(f: Finding, places: list[str]) -> Row:
     sign = "<= " if f.bound == Bound.AT_MOST else ""
     return (
         *(coordinate(k, f.where.get(k)) for k in places), f.quantity,
-        f.number if f.verdict != Verdict.ERROR else "",
+        f.number,
         "" if f.expected is None else f"{sign}{f.expected:.8g}",
         "" if f.tolerance is None else f"{f.tolerance:.1e}",
         "" if f.resolves is None else f"{f.resolves:.1e}", f.estimator or "",
@@ -227,9 +227,8 @@ def _finding(f: Finding, places: list[str]) -> Row:
     )  # fmt: skip
 
 
-def _attention(result: Result, verbose: bool, about: str = "") -> Iterator[str]:
-    """Estimators, hints, reasons, reproduction commands. `about` says whose they are where several
-    checks share a table."""
+def _attention(result: Result, verbose: bool) -> Iterator[str]:
+    """Estimators, hints, reasons, reproduction commands."""
     for f in result.findings:
         for row in f.estimators if verbose else ():
             number = replace(f, value=row["value"], stderr=row["stderr"]).number
@@ -237,11 +236,61 @@ def _attention(result: Result, verbose: bool, about: str = "") -> Iterator[str]:
             yield f"  {at} {number} {row['verdict']}"
         for kind, sentence in (("note", f.note), ("hint", f.hint)):
             if sentence:
-                yield f"  {kind:5} {about}{sentence}"
+                yield f"  {kind:5} {sentence}"
         if f.reproduce:
             yield f"  repro {f.reproduce}"
     for name, reason, where in _not_used(result):
-        yield f"  {about}{name} sampling not used at {where}: {reason}"
+        yield f"  {name} sampling not used at {where}: {reason}"
+
+
+class _Remark(NamedTuple):
+    """A sentence, and which findings of which check it is about."""
+
+    kind: str  # hint or note
+    sentence: str
+    check: str
+    place: str
+
+
+def _of_checks(group: Sequence[Result]) -> Iterator[str]:
+    """What is to say about the checks of one model: a sentence that several findings share once,
+    with whom it is about; for each check that failed one command that repeats it."""
+    remarks = [one for result in group for one in _remarks(result)]
+    for kind in ("hint", "note"):
+        told = [r for r in remarks if r.kind == kind]
+        yield from map(_told, _alike(told).values())
+    failed = {r.check: f.reproduce for r in group for f in reversed(r.findings) if f.reproduce}
+    yield from (f"  repro {command}" for command in failed.values())
+
+
+def _remarks(result: Result) -> Iterator[_Remark]:
+    for f in result.findings:
+        for kind, sentence in (("hint", f.hint), ("note", f.note)):
+            if sentence:
+                yield _Remark(kind, sentence, result.check, place(f))
+    for name, reason, where in _not_used(result):
+        yield _Remark("note", f"{name} sampling not used: {reason}", result.check, where)
+
+
+#: numbers within a sentence: sentences that differ by them alone say the same
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+
+
+def _alike(remarks: Sequence[_Remark]) -> dict[str, list[_Remark]]:
+    """The remarks by what they say."""
+    found: dict[str, list[_Remark]] = defaultdict(list)
+    for one in remarks:
+        found[NUMBER.sub("0", one.sentence)].append(one)
+    return found
+
+
+def _told(remarks: Sequence[_Remark]) -> str:
+    """'  hint  furnace, radiance: the factor 1/pi is missing (3 places)'."""
+    checks = dict.fromkeys(r.check for r in remarks)
+    places = [p for p in dict.fromkeys(r.place for r in remarks) if p]
+    where = f" ({len(places)} places)" if len(places) > 1 else ""
+    at = f" at {places[0]}" if len(places) == 1 and remarks[0].kind == "hint" else ""
+    return f"  {remarks[0].kind:5} {', '.join(checks)}{at}: {remarks[0].sentence}{where}"
 
 
 def _not_used(result: Result) -> list[tuple[str, str, str]]:
@@ -286,7 +335,8 @@ def summary(report: Report, colour: bool = False) -> str:
     verdict = painted(report.verdict.upper(), style(worst(f.verdict for f in findings)), colour)
     if report.command == "stress":
         return verdict
-    samples = max((f.samples or 0 for f in findings), default=0)
+    drawn = [f.samples for f in findings if f.samples and f.level is not None]
+    samples = min(max(drawn, default=0), report.settings.get("samples", math.inf))
     points = f"{kind} points, " if (kind := report.settings.get("points")) else ""
     return (
         f"{verdict}  {tally(findings)}; up to {samples} samples a claim, {points}"

@@ -85,6 +85,10 @@ def converge(
     samplers = chosen("sampler", sampler, (*charts_of(model), *samplers_of(model)))
     sets = chosen("point set", points, tuple(SETS))
     settings = Settings(sets[0], samples, seed, threads)
+    fewest = max(map(randomisations, sets)) << FIRST
+    if samples < fewest:
+        one = "one point of a curve"
+        raise UserError(f"samples must be at least {fewest} for {one}, not {samples}")
     cases = [
         Case(model.of(one), one, [theta], phi_o_deg, seed=seed) for one in parameter_sets(model, p)
     ]

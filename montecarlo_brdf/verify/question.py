@@ -226,11 +226,21 @@ def probed(model: Model, p: NamedTuple) -> None:
 
 
 def source(model: Model) -> dict[str, Any]:
-    """File and line of the f of a user's file, relative to here if it lies below."""
+    """File of a user's model, relative to here if it lies below, and the lines of its functions;
+    `line` is that of f."""
     code = getattr(getattr(model.f, "py_func", model.f), "__code__", None)
     if model.built_in or model.terms or code is None or not os.path.isfile(code.co_filename):
         return {}
     below = os.path.relpath(code.co_filename)
     outside = below.startswith("..")
     file = os.path.abspath(code.co_filename) if outside else below.replace(os.sep, "/")
-    return {"file": file, "line": code.co_firstlineno}
+    found = {name: getattr(model, name) for name in ("f", "sample", "pdf", "prepare")}
+    lines = {name: _line(function, code.co_filename) for name, function in found.items()}
+    told = {name: line for name, line in lines.items() if line}
+    return {"file": file, "line": code.co_firstlineno, "functions": told}
+
+
+def _line(function: Any, file: str) -> int | None:
+    """The line of a function, if it stands in a file."""
+    code = getattr(getattr(function, "py_func", function), "__code__", None)
+    return code.co_firstlineno if code is not None and code.co_filename == file else None

@@ -125,11 +125,24 @@ def decoded(line: str) -> tuple[str, dict[str, str], str]:
 def test_github_points_at_the_line_of_f() -> None:
     *commands, last = formats.render(report(), "github").splitlines()
     levels = [decoded(c)[0] for c in commands]
-    assert levels == ["error", "error", "notice", "warning", "error"]
+    assert levels == ["error"]  # one for each check that needs attention
     level, place, message = decoded(commands[0])
     assert (place["file"], place["line"]) == ("my,brdf.py", "7")
-    assert "furnace: fail" in place["title"] and "100 %\nnext" in message
+    assert "furnace: error" in place["title"] and "raised" in message
     assert last.startswith("brdf-check run: error;")
+
+
+def test_github_shows_the_worst_first_and_on_its_function() -> None:
+    source = {"file": "my.py", "line": 7, "functions": {"f": 7, "sample": 12, "pdf": 20}}
+    failing = [finding("fail", hint=NASTY), finding("fail"), finding("pass")]
+    checks = {"energy": [finding("known")], "pdf": failing, "sampling": failing}
+    rows = [Result("my.py", {}, name, found, [], source) for name, found in checks.items()]
+    *commands, _ = formats.render(Report("run", {}, rows), "github").splitlines()
+    told = [decoded(c) for c in commands]
+    assert [(level, place["line"]) for level, place, _ in told] == [
+        ("error", "20"), ("error", "12"), ("notice", "7")
+    ]  # fmt: skip
+    assert "100 %\nnext" in told[0][2] and "and 1 more findings like it" in told[0][2]
 
 
 def test_csv_has_a_row_per_finding() -> None:

@@ -110,7 +110,7 @@ def test_energy_is_read_and_mended(tmp_path: Any) -> None:
     assert energy[0].verdict == "known"
     gains = [f for f in report.results[0].findings if f.verdict == "known"]
     most = max(f.value for f in gains)
-    assert f"up to {most:.4g} times what arrives (theta_i 85° ch 0); it would" in gains[0].note  # type: ignore[operator]
+    assert f"up to {most:.4g} times what arrives (theta_i 85° channel 0); it would" in gains[0].note  # type: ignore[operator]
     assert "1/pi" in (energy[0].note or "")
     for f in (f for f in report.results[0].findings if f.quantity == "R <= 1"):
         mu, kd = from_degrees(f.where["theta_i_deg"])[2], (0.6, 0.3, 0.1)[f.where["channel"]]
