@@ -19,15 +19,12 @@ PYPROJECT = "pyproject.toml"
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
     """pytest's hook: the collector for a file, if it is ours."""
-    if file_path.name == FILE or (file_path.name == PYPROJECT and _speaks(file_path)):
-        return ProjectFile.from_parent(parent, path=file_path)
-    return None
-
-
-def _speaks(path: Path) -> bool:
+    if file_path.name not in (FILE, PYPROJECT):
+        return None
     from montecarlo_brdf.cli._requests import speaks
 
-    return speaks(path)
+    ours = file_path.name == FILE or speaks(file_path)
+    return ProjectFile.from_parent(parent, path=file_path) if ours else None
 
 
 class ProjectFile(pytest.File):

@@ -69,9 +69,7 @@ def references(function: Function, names: Mapping[str, object]) -> dict[str, Any
     return {n: names[n] if _fills(scope[n], n, names) else scope[n] for n in used}
 
 
-def uses(
-    value: object, names: Mapping[str, object]
-) -> TypeGuard[types.FunctionType]:
+def uses(value: object, names: Mapping[str, object]) -> TypeGuard[types.FunctionType]:
     """Whether `value` is a template with a hole that one of `names` fills."""
     if not isinstance(value, types.FunctionType) or not names:
         return False
@@ -177,11 +175,8 @@ class Specialiser:
             return self.bind(value)
         if uses(value, names):
             return self.bind(Bound(value, frozenset(names.items())))
-        if isinstance(value, Instruction):
-            return self._instruction(value)
-        return self._counterpart(value, code)
-
-    def _instruction(self, value: Instruction) -> Any:
+        if not isinstance(value, Instruction):
+            return self._counterpart(value, code)
         if value not in self._instructions:
             self._instructions[value] = value.intrinsic()
         return self._instructions[value]
@@ -217,13 +212,8 @@ def contiguous(value: Any) -> Any:
     """Tables as compiled code stores them: numba would keep the address of one with gaps."""
     if isinstance(value, tuple):
         items = [contiguous(item) for item in value]
-        same = all(new is old for new, old in zip(items, value, strict=True))
-        return value if same else _tuple_like(value, items)
+        if all(new is old for new, old in zip(items, value, strict=True)):
+            return value
+        return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
     flags = getattr(value, "flags", None)
-    if getattr(flags, "forc", True):
-        return value
-    return value.copy(order="C")
-
-
-def _tuple_like(value: tuple[Any, ...], items: list[Any]) -> Any:
-    return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+    return value if getattr(flags, "forc", True) else value.copy(order="C")

@@ -53,17 +53,9 @@ def directory() -> Path:
 
 def read(name: str) -> bytes | None:
     """The stored image, or None if it is absent, unreadable or damaged."""
-    path = directory() / f"{name}.o"
-    try:
-        content = path.read_bytes()
-    except OSError:
-        return None
+    content = _content(f"{name}.o")
     image = content[DIGEST:]
-    if content[:DIGEST] != _digest(image):
-        return None
-    with contextlib.suppress(OSError):
-        os.utime(path)
-    return image
+    return image if content[:DIGEST] == _digest(image) else None
 
 
 def write(name: str, image: bytes) -> None:
@@ -87,15 +79,20 @@ def write(name: str, image: bytes) -> None:
 
 def notes(name: str) -> list[str]:
     """The lines noted under a name, without damaged ones."""
-    path = directory() / f"{name}.txt"
+    whole = (line.partition(b" ") for line in _content(f"{name}.txt").splitlines())
+    return [text.decode() for digest, _, text in whole if digest == _digest(text).hex().encode()]
+
+
+def _content(name: str) -> bytes:
+    """A file's, which counts as used now; nothing if it is absent or unreadable."""
+    path = directory() / name
     try:
         content = path.read_bytes()
     except OSError:
-        return []
+        return b""
     with contextlib.suppress(OSError):
         os.utime(path)
-    whole = (line.partition(b" ") for line in content.splitlines())
-    return [text.decode() for digest, _, text in whole if digest == _digest(text).hex().encode()]
+    return content
 
 
 def note(name: str, line: str) -> None:

@@ -11,11 +11,10 @@ import math
 from typing import NamedTuple
 
 from montecarlo_brdf.compile.layout import pack
-from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import moments, quantity
 from montecarlo_brdf.estimate.ascent import FIRST, Ascent, Method, Setting, looks_of
 from montecarlo_brdf.estimate.evaluate import estimates
-from montecarlo_brdf.estimate.plan import TARGETS, Choice, Plan
+from montecarlo_brdf.estimate.plan import TARGETS, Choice, Plan, check_points
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import (
     charts_of,
@@ -23,11 +22,12 @@ from montecarlo_brdf.estimate.samplers import (
     identity_of,
     integrand,
     query,
+    sampler_of,
     samplers_of,
 )
 from montecarlo_brdf.model import Model, ParameterSet, channels
 from montecarlo_brdf.sampling.directions import Sampler
-from montecarlo_brdf.sampling.points import SETS, PointSet
+from montecarlo_brdf.sampling.points import PointSet
 from montecarlo_brdf.statistics import Estimate, estimates_of
 from montecarlo_brdf.vectors import Vec
 
@@ -56,8 +56,10 @@ def albedo(
     """
     model = model.of(p)
     if plan.target_error is not None:
-        picked = given(model, sampler, plan.points) if plan.method is Choice.GIVEN else None
-        return _until(model, p, wo, plan, picked)
+        chosen = None
+        if plan.method is Choice.GIVEN:
+            chosen = Method(sampler_of(model, sampler), check_points(plan.points), "as given")
+        return _until(model, p, wo, plan, chosen)
     best = suited(model, p, wo, plan)
     mean = integrand(model, Quantity.ALBEDO, best.sampler)
     fixed = plan._replace(points=best.points)
@@ -135,16 +137,6 @@ def methods(model: Model) -> list[Method]:
     if Sampler.OWN in samplers_of(model):
         found.append(Method(Sampler.OWN, PointSet.SOBOL, "its own sampler sees every lobe"))
     return [*found, Method(Sampler.COSINE, PointSet.SOBOL, "nothing better fits")]
-
-
-def given(model: Model, sampler: str, points: str) -> Method:
-    """The method that the user asked for, or a UserError."""
-    offered = (*samplers_of(model), *charts_of(model))
-    if sampler not in offered:
-        raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
-    if points not in SETS:
-        raise UserError(unknown("point set", points, SETS))
-    return Method(Sampler(sampler), points, "as given")
 
 
 @functools.lru_cache(maxsize=256)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from montecarlo_brdf.compile.bind import Function
@@ -18,7 +18,7 @@ from montecarlo_brdf.estimate.plan import (
     check_theta,
 )
 from montecarlo_brdf.estimate.quantity import Quantity
-from montecarlo_brdf.estimate.samplers import BLIND, Subject, charts_of, integrand, samplers_of
+from montecarlo_brdf.estimate.samplers import BLIND, Subject, integrand, sampler_of
 from montecarlo_brdf.model import Model, NoParams, ParameterSet
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate
@@ -57,9 +57,11 @@ def directional_albedo(
     parameter sets a list of that. Raises UserError for a bad value, ModelError if the model does
     not compile or raises.
     """
-    if isinstance(p, list) or isinstance(theta_o_deg, (list, tuple)):
-        rest = {k: v for k, v in locals().items() if k not in ("model", "p", "theta_o_deg")}
-        return _each(directional_albedo, model, p, theta_o_deg, rest)
+    rest = {k: v for k, v in locals().items() if k not in ("model", "p", "theta_o_deg")}
+    if isinstance(p, list):
+        return [directional_albedo(model, one, theta_o_deg, **rest) for one in p]
+    if isinstance(theta_o_deg, (list, tuple)):
+        return [directional_albedo(model, p, theta, **rest) for theta in theta_o_deg]
     check_subject(model, p)
     chosen = check_method(method, target_error)
     plan = Plan(points, samples, replicates, seed, threads, target_error, chosen)
@@ -68,15 +70,6 @@ def directional_albedo(
         return _one(model, p, Quantity.ALBEDO, wo, sampler, plan)
     found, _ = adaptive.albedo(model, p, wo, plan, sampler)
     return found[0] if len(found) == 1 else found
-
-
-def _each(
-    function: Callable[..., Any], model: Model, p: Any, angles: Any, rest: dict[str, Any]
-) -> list[Any]:
-    """One result per parameter set, angle, or both (nested)."""
-    if isinstance(p, list):
-        return [function(model, one, angles, **rest) for one in p]
-    return [function(model, p, angle, **rest) for angle in angles]
 
 
 def reverse_albedo(
@@ -138,10 +131,7 @@ def bihemispherical_albedo(
 
 def _one(model: Model, p: ParameterSet, of: Quantity, fixed: Vec, sampler: str, plan: Plan) -> Any:
     model = model.of(p)
-    offered = (*samplers_of(model, of), *charts_of(model))
-    if sampler not in offered:
-        raise UserError(unknown(f"sampler for model {model.name}", sampler, offered))
-    mean = integrand(model, of, sampler)
+    mean = integrand(model, of, sampler_of(model, sampler, of))
     rows = estimates(model, p, fixed, [mean], plan, (of, sampler))
     return rows[0][0] if len(rows) == 1 else [row[0] for row in rows]
 

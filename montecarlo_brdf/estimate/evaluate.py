@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.compile.kernel import Kernel
 from montecarlo_brdf.compile.layout import pack
-from montecarlo_brdf.errors import UserError, unknown
+from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate import moments
 from montecarlo_brdf.estimate.moments import BLOCK, STATE
-from montecarlo_brdf.estimate.plan import Plan, check_samples
+from montecarlo_brdf.estimate.plan import Plan, check_points, check_samples
 from montecarlo_brdf.estimate.quantity import Integrand
 from montecarlo_brdf.estimate.samplers import Subject, query, subject_of
 from montecarlo_brdf.model import Model, ParameterSet
@@ -60,8 +60,7 @@ def evaluate(
     common: the same random numbers for every direction, so that what is searched is smooth.
     """
     check_samples(plan.samples)
-    if plan.points not in SETS:
-        raise UserError(unknown("point set", plan.points, SETS))
+    check_points(plan.points)
     replicates = max(1, min(plan.replicates, plan.samples))
     per_replicate = _per_replicate(plan, replicates)
     place = () if common else fixed

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.points import SETS, PointSet
 
 if TYPE_CHECKING:
     from montecarlo_brdf.estimate.partial_sums import PartialSums
@@ -39,6 +40,13 @@ class Plan(NamedTuple):
     method: Choice = Choice.GIVEN  # AUTO also without a target
     sums: PartialSums | None = None  # where long jobs keep how far they are
     effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at
+
+
+def check_points(points: str) -> PointSet:
+    """A point set by its name, or a UserError."""
+    if points not in SETS:
+        raise UserError(unknown("point set", points, SETS))
+    return PointSet(points)
 
 
 def check_samples(samples: Any) -> None:

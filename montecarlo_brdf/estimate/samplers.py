@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from typing import Any, NamedTuple
 
+from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import probe, quantity
 from montecarlo_brdf.estimate.quantity import Integrand, Quantity
 from montecarlo_brdf.model import Model, ParameterSet, Prepared, channels
@@ -32,6 +33,14 @@ def samplers_of(model: Model, of: Quantity = Quantity.ALBEDO) -> tuple[Sampler, 
     if model.sample and (model.pdf or (weighted(model) and of is not Quantity.REVERSE)):
         return SAMPLERS
     return BLIND
+
+
+def sampler_of(model: Model, name: str, of: Quantity = Quantity.ALBEDO) -> Sampler:
+    """The sampler or chart of this name, or a UserError if the model does not offer it."""
+    offered = (*samplers_of(model, of), *charts_of(model))
+    if name not in offered:
+        raise UserError(unknown(f"sampler for model {model.name}", name, offered))
+    return Sampler(name)
 
 
 @functools.lru_cache(maxsize=256)

@@ -57,7 +57,8 @@ def furnace(
     Returns a Report with one Result per parameter set. Raises UserError for a bad value, ModelError
     if the model does not run, TooSlow if it does not return.
     """
-    thetas = [check_theta(a) for a in _listed(theta_o_deg)]
+    angles: Any = theta_o_deg if isinstance(theta_o_deg, (list, tuple)) else [theta_o_deg]
+    thetas = [check_theta(a) for a in angles]
     samplers = _samplers(model, sampler)
     settings = Settings(points, samples, seed, threads, tolerance, target_error, method, sums)
     only = None if sampler == "all" else samplers
@@ -80,10 +81,6 @@ def furnace(
     return replace(report, results=results)
 
 
-def _listed(angles: Sequence[float] | float) -> Sequence[Any]:
-    return angles if isinstance(angles, (list, tuple)) else [angles]
-
-
 def _samplers(model: Model, asked: str | Sequence[str]) -> list[str]:
     """The samplers asked for, if the model offers them."""
     offered = samplers_of(model)
@@ -103,24 +100,18 @@ def partial_sums(path: str | Path | None) -> Iterator[PartialSums | None]:
     if path is None:
         yield None
         return
-    path = Path(path)
-    check_writable(path)
-    sums = _read(path)
-    try:
-        yield sums
-    finally:
-        sums.write()
-
-
-def _read(path: Path) -> PartialSums:
     from montecarlo_brdf.estimate.partial_sums import PartialSums
 
-    save = functools.partial(write_text, path)
-    if not path.exists():
-        return PartialSums(save)
+    path = Path(path)
+    check_writable(path)
     try:
-        return PartialSums(save, path.read_text(encoding="utf-8"))
+        content = path.read_text(encoding="utf-8") if path.exists() else ""
+        sums = PartialSums(functools.partial(write_text, path), content)
     except OSError as error:
         raise UserError(f"cannot read {path}: {error.strerror or error}") from error
     except (UnicodeDecodeError, UserError) as error:
         raise UserError(f"cannot resume from {path}: {error}") from error
+    try:
+        yield sums
+    finally:
+        sums.write()

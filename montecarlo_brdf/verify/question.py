@@ -10,12 +10,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.errors import ModelError, TooSlow, UserError, unknown
 from montecarlo_brdf.estimate import probe
-from montecarlo_brdf.estimate.plan import Choice, Plan, Progress, check_method, check_samples
+from montecarlo_brdf.estimate.plan import (
+    Choice,
+    Plan,
+    Progress,
+    check_method,
+    check_points,
+    check_samples,
+)
 from montecarlo_brdf.judge.claim import Claim
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model
-from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.supervision import Deadline, supervised
 
@@ -47,8 +53,7 @@ class Settings:
     effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at
 
     def __post_init__(self) -> None:
-        if self.points not in SETS:
-            raise UserError(unknown("point set", self.points, SETS))
+        check_points(self.points)
         threads, seed, tolerance = self.threads, self.seed, self.tolerance
         if threads is not None and not (isinstance(threads, int) and 1 <= threads <= 1024):
             raise UserError(f"threads must be a whole number from 1 to 1024, not {threads}")
