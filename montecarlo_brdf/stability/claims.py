@@ -9,7 +9,7 @@ from typing import Any
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Limit, Reference
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Model, Property
-from montecarlo_brdf.stability.sampling import LENGTH_ROUNDINGS, Draws
+from montecarlo_brdf.stability.sampling import LENGTH_ROUNDINGS, UNUSABLE, Draws
 from montecarlo_brdf.stability.stress import Found, Loss
 
 #: Constants of a source are doubles: long double cannot be better.
@@ -17,7 +17,6 @@ DOUBLE = 2.0**-52
 SEARCH = "search"
 #: what must not become of f, and how it is called
 BROKEN = {"nan": "NaN", "inf": "Inf", "negative": "negative"}
-UNUSABLE = ("nan", "unreachable", "weightless")
 
 
 def claims(model: Model, loss: Loss) -> Iterator[Claim]:
@@ -38,24 +37,14 @@ def claims(model: Model, loss: Loss) -> Iterator[Claim]:
 
 
 def _at_most(
-    quantity: str,
-    loss: Loss,
-    value: float,
-    most: float,
-    example: str | None,
+    quantity: str, loss: Loss, value: float, most: float, example: str | None,
     reproduce: str | None = None,
-) -> ExactClaim:
+) -> ExactClaim:  # fmt: skip
     found = Exact(value, points=loss.points, example=example, reproduce=reproduce)
     return ExactClaim(
-        quantity,
-        {"precision": loss.precision},
-        Bound.AT_MOST,
-        Reference(0.0, 0.0),
-        most,
-        lambda: found,
-        property=None,
-        estimator=SEARCH,
-    )
+        quantity, {"precision": loss.precision}, Bound.AT_MOST, Reference(0.0, 0.0), most,
+        lambda: found, property=None, estimator=SEARCH,
+    )  # fmt: skip
 
 
 def _shown(model: Model, loss: Loss, found: Found | None) -> tuple[str | None, str | None]:
@@ -86,7 +75,7 @@ def _draws(loss: Loss, draws: Draws) -> Iterator[ExactClaim]:
     limit = LENGTH_ROUNDINGS * max(loss.eps, DOUBLE)
     example = _drawn(draws.where.get("length"))
     yield _at_most("length of a sample - 1", loss, draws.length, limit, example)
-    bad = draws.nan + draws.unreachable + draws.weightless
+    bad = sum(draws.counts.values())
     place = next((draws.where[k] for k in UNUSABLE if k in draws.where), None)
     quantity = "samples NaN, of pdf 0, of infinite weight"
     yield _at_most(quantity, loss, float(bad), 0.0, _drawn(place))

@@ -35,7 +35,7 @@ class Points(NamedTuple):
     """Pairs of directions in one precision; `group` numbers the wo that a pair belongs to."""
 
     wo: Array
-    wi: Any
+    wi: Array
     group: Array
 
 
@@ -67,7 +67,7 @@ def _at(s: float, c: float, phi: float) -> tuple[float, float, float]:
     return s * math.cos(phi), s * math.sin(phi), c
 
 
-def _partners(arithmetic: Arithmetic, wo: Array, grid: Grid, width: float) -> Any:
+def _partners(arithmetic: Arithmetic, wo: Array, grid: Grid, width: float) -> Array:
     """Directions wi that may be trouble for this wo, all above the horizon."""
     double = wo.astype(np.float64)
     phi = math.atan2(double[1], double[0])
@@ -85,7 +85,7 @@ def _around(grid: Grid, phi: float, eps: float) -> Iterator[tuple[float, float, 
         yield _at(s, c, phi + turn)
 
 
-def _reflections(wo: Array, width: float) -> Iterator[Any]:
+def _reflections(wo: Array, width: float) -> Iterator[Array]:
     """wo reflected by facets at multiples of the lobe's width."""
     for k, j in itertools.product(WIDTHS, range(AZIMUTHS)):
         turn = 2.0 * math.pi * (j + 0.1) / AZIMUTHS
@@ -94,7 +94,7 @@ def _reflections(wo: Array, width: float) -> Iterator[Any]:
         yield 2.0 * (wo @ h) * h - wo
 
 
-def _exact(arithmetic: Arithmetic, wo: Array) -> Iterator[Any]:
+def _exact(arithmetic: Arithmetic, wo: Array) -> Iterator[Array]:
     """The mirror of wo, wo itself, across, the normal; each one rounding away, longer, shorter."""
     one = arithmetic.array(1.0)
     zero = arithmetic.array(0.0)
@@ -155,7 +155,7 @@ def parameters(model: Model, quick: bool = False) -> list[Any]:
     return list(dict.fromkeys(found))
 
 
-def uniforms(arithmetic: Arithmetic) -> Any:
+def uniforms(arithmetic: Arithmetic) -> Array:
     """Triples of random numbers a generator may give and a test never draws: ends and corners."""
     e = arithmetic.eps
     low = arithmetic.array([0.0, arithmetic.least, arithmetic.tiny, e / 2, 0.25, 0.5, 0.75])

@@ -42,7 +42,7 @@ def errors(narrow: Rung, wide: Rung, points: Points, p: NamedTuple) -> Errors:
     def judge(conditioning: Array) -> Errors:
         return judged(value, truth, conditioning, points, type_, truth_type)
 
-    def moved(at: Array, eps: float) -> Any:
+    def moved(at: Array, eps: float) -> Array:
         turned = _together(wide, _moves(wo[at], wi[at], eps, truth_type), q)
         return _conditioning(turned, truth[at], truth_type)
 
@@ -64,7 +64,7 @@ def errors(narrow: Rung, wide: Rung, points: Points, p: NamedTuple) -> Errors:
         return judge(step + unscaled)
 
 
-def lower_than_any_angle(points: Points, type_: Arithmetic) -> Any:
+def lower_than_any_angle(points: Points, type_: Arithmetic) -> Array:
     """Pairs with a cosine below eps/8: the smallest of any angle of the type is about eps/4.
 
     There products leave the range of normal numbers, and with it their digits: no error is judged.
@@ -82,6 +82,7 @@ def judged(
 ) -> Errors:
     """The relative errors of values against their truth."""
     shown, size, low = truth_type.array(value), np.abs(truth), lower_than_any_angle(points, type_)
+    plain = _double(shown) if shown.dtype == object else shown
     real = _finite(truth) & ~low
     largest = largest_of(np.where(real, size, truth_type.array(0.0)), points.group)
     granted = truth_type.array(type_.eps) * largest + truth_type.array(type_.least + BLACK)
@@ -89,8 +90,8 @@ def judged(
     beyond = off - GRANTED * conditioning
     lost = (shown == 0) & (size >= type_.tiny) & (beyond > 0) & ~low
     kinds = {
-        "nan": _is_nan(shown),
-        "inf": _is_inf(shown) & (size <= type_.most),
+        "nan": np.isnan(plain),
+        "inf": np.isinf(plain) & (size <= type_.most),
         "negative": (shown < 0) & (truth >= 0) & (-shown > granted),
         "flushed": lost & (conditioning < UNDETERMINED * size),
     }
@@ -106,7 +107,7 @@ def judged(
     return Errors(value, truth, relative(off, counted), relative(beyond, determined), kinds, low)
 
 
-def _together(wide: Rung, pairs: list[Any], q: NamedTuple) -> Any:
+def _together(wide: Rung, pairs: list[Any], q: NamedTuple) -> Array:
     """f at lists of pairs of directions, a row each: all at once, since every call costs time."""
     wo, wi = (np.concatenate(w) for w in zip(*pairs, strict=True))
     return wide.f(wo, wi, q).reshape(len(pairs), -1)
@@ -119,41 +120,34 @@ def _moves(wo: Array, wi: Array, eps: float, arithmetic: Arithmetic) -> list[Any
     return [*moved, *((wo, unit(wi + step, arithmetic)) for step in steps)]
 
 
-def _conditioning(turned: Array, truth: Array, arithmetic: Arithmetic) -> Any:
+def _conditioning(turned: Array, truth: Array, arithmetic: Arithmetic) -> Array:
     """How far the true value moves when a direction is known to eps radians, as rounded ones are.
     What vectors that are not quite of unit length do to the formula is added by the caller.
 
     The sum of |f(w moved) - f(w)|/2 over the `_moves`: a property of f on the sphere, not of how a
     formula behaves off it.
     """
-    return sum(_finite_distance(f, truth, arithmetic) * arithmetic.array(0.5) for f in turned)
+    half = arithmetic.array(0.5)
+    return np.asarray(sum(_finite_distance(f, truth, arithmetic) * half for f in turned))
 
 
-def _finite_distance(a: Array, b: Array, arithmetic: Arithmetic) -> Any:
+def _finite_distance(a: Array, b: Array, arithmetic: Arithmetic) -> Array:
     """|a - b|, 0 where it is not finite."""
     with np.errstate(all="ignore"):
         step = np.abs(a - b)
     return np.where(_finite(step), step, arithmetic.array(0.0))
 
 
-def largest_of(size: Array, group: Array) -> Any:
+def largest_of(size: Array, group: Array) -> Array:
     """The largest size within each group, at every member of it."""
     starts = np.flatnonzero(np.r_[True, group[1:] != group[:-1]])
     tops = np.maximum.reduceat(size, starts)
     return np.repeat(tops, np.diff(np.r_[starts, len(group)]))
 
 
-def _double(x: Array) -> Any:
+def _double(x: Array) -> Array:
     return np.asarray(x).astype(np.float64)
 
 
-def _finite(x: Array) -> Any:
+def _finite(x: Array) -> Array:
     return np.isfinite(_double(x)) if x.dtype == object else np.isfinite(x)
-
-
-def _is_nan(x: Array) -> Any:
-    return np.isnan(_double(x) if x.dtype == object else x)
-
-
-def _is_inf(x: Array) -> Any:
-    return np.isinf(_double(x) if x.dtype == object else x)

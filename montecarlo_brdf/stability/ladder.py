@@ -30,15 +30,15 @@ class Rung:
         self._special = Rebound(arithmetic)
         self._rebound: dict[str, Callable[..., Any]] = {}
 
-    def f(self, wo: Array, wi: Array, p: NamedTuple) -> Any:
+    def f(self, wo: Array, wi: Array, p: NamedTuple) -> Array:
         """f(wo, wi, p) per point."""
-        return self._called("f", wo, wi, p)[0]
+        return np.asarray(self._called("f", wo, wi, p)[0])
 
-    def pdf(self, wo: Array, wi: Array, p: NamedTuple) -> Any:
+    def pdf(self, wo: Array, wi: Array, p: NamedTuple) -> Array:
         """pdf(wo, wi, p) per point."""
-        return self._called("pdf", wo, wi, p)[0]
+        return np.asarray(self._called("pdf", wo, wi, p)[0])
 
-    def sample(self, wo: Array, u: Array, p: NamedTuple) -> Any:
+    def sample(self, wo: Array, u: Array, p: NamedTuple) -> Array:
         """Rows x, y, z (and weight) drawn for the numbers u (n, 3)."""
         return self._called("sample", wo, u, p)
 
@@ -49,7 +49,7 @@ class Rung:
             self._rebound[name] = self._special.clone(getattr(original, "py_func", original), {})
         return self._rebound[name]
 
-    def _called(self, name: str, a: Array, b: Array, p: NamedTuple) -> Any:
+    def _called(self, name: str, a: Array, b: Array, p: NamedTuple) -> Array:
         function = self.function(name)
         prepare = self._prepare(p)
         columns = [*self._columns(a), *self._columns(b)]
@@ -60,7 +60,7 @@ class Rung:
             return function(row[:3], row[3:6], ready)
 
         try:
-            return over_points(columns, call, self.arithmetic)
+            return np.asarray(over_points(columns, call, self.arithmetic))
         except Widened as error:
             raise ModelError(
                 f"{name} of model {self.model.name} leaves its precision: {error}"
@@ -131,8 +131,8 @@ def rounded(p: NamedTuple, arithmetic: Arithmetic) -> Any:
     return p._make(values)
 
 
-def unit(w: Array, arithmetic: Arithmetic) -> Any:
+def unit(w: Array, arithmetic: Arithmetic) -> Array:
     """Directions (n, 3) of exactly unit length as nearly as the precision has it."""
     w = arithmetic.array(w)
     scale = arithmetic.function("sqrt")(w[:, 0] ** 2 + w[:, 1] ** 2 + w[:, 2] ** 2)
-    return w / scale[:, None]
+    return np.asarray(w / scale[:, None])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,19 +15,38 @@ from montecarlo_brdf.stability.ladder import Rung, rounded
 #: A direction may be this many roundings longer or shorter than 1: two rotations' worth.
 LENGTH_ROUNDINGS = 32.0
 ANGLES = 8
+#: what makes a draw unusable: it is no number, pdf is 0 or NaN there, f cos/pdf is not finite
+UNUSABLE = ("nan", "unreachable", "weightless")
 
 
-@dataclass(frozen=True)
+@dataclass
 class Draws:
-    """What went wrong among `count` draws of one precision: how often, and where first."""
+    """What went wrong among the draws of one precision: how often, and where."""
 
-    count: int
-    nan: int
-    length: float  # worst | |w| - 1 |
-    unreachable: int  # pdf 0 or NaN where it samples
-    weightless: int  # f cos/pdf infinite or NaN
-    largest_weight: float
-    where: dict[str, Any]  # the first of each kind, the worst for length
+    length: float = 0.0  # worst | |w| - 1 |
+    counts: dict[str, int] = field(default_factory=lambda: dict.fromkeys(UNUSABLE, 0))
+    where: dict[str, Any] = field(default_factory=dict)  # the first of each, the worst length
+
+    def add(self, rung: Rung, wo: Array, u: Array, p: NamedTuple) -> None:
+        """Draw for numbers u at directions wo."""
+        w = rung.sample(wo, u, p)
+        bad = np.asarray(~np.isfinite(w[:3]).all(axis=0))
+        self._count("nan", bad, (wo, u, p))
+        kept = ~bad & (w[2] > 0)
+        wo, u, w = wo[kept], u[kept], w[:, kept]
+        length = np.sqrt((w[:3].astype(np.longdouble) ** 2).sum(axis=0))
+        off = np.abs(length - 1.0).astype(np.float64)
+        if len(off) and ("length" not in self.where or off.max() > self.length):
+            self.length, self.where["length"] = float(off.max()), _place(wo, u, p, off)
+        with np.errstate(all="ignore"):
+            weight, density = _weights(rung, wo, w, p)
+        self._count("unreachable", ~(density > 0), (wo, u, p))
+        self._count("weightless", ~np.isfinite(weight) & (density > 0), (wo, u, p))
+
+    def _count(self, kind: str, wrong: Array, drawn: tuple[Array, Array, NamedTuple]) -> None:
+        self.counts[kind] += int(wrong.sum())
+        if wrong.any() and kind not in self.where:
+            self.where[kind] = _place(*drawn, wrong)
 
 
 def draws(model: Model, sets: list[Any], arithmetic: Arithmetic) -> Draws | None:
@@ -42,39 +61,12 @@ def draws(model: Model, sets: list[Any], arithmetic: Arithmetic) -> Draws | None
     )
     wos = wos[:: max(1, len(wos) // ANGLES)]
     wo, many = np.repeat(wos, len(u), axis=0), np.tile(u, (len(wos), 1))
-    total = Draws(0, 0, 0.0, 0, 0, 0.0, {})
+    total = Draws()
     for p in sets:
         q = rounded(p, arithmetic)
         if q is not None:
-            total = _together(total, _one(rung, wo, many, q))
+            total.add(rung, wo, many, q)
     return total
-
-
-def _one(rung: Rung, wo: Array, u: Array, p: NamedTuple) -> Draws:
-    w = rung.sample(wo, u, p)
-    bad = ~np.isfinite(w[:3]).all(axis=0)
-    kept = ~bad & (w[2] > 0)
-    nowhere = {"nan": _place(wo, u, p, int(np.argmax(bad)))} if bad.any() else {}
-    wo, u, w = wo[kept], u[kept], w[:, kept]
-    off = np.abs(np.sqrt((w[:3].astype(np.longdouble) ** 2).sum(axis=0)) - 1.0).astype(np.float64)
-    with np.errstate(all="ignore"):
-        weight, density = _weights(rung, wo, w, p)
-    unreachable = ~(density > 0)
-    blown = ~np.isfinite(weight) & ~unreachable
-    places = {"unreachable": unreachable, "weightless": blown}
-    where = {k: _place(wo, u, p, int(np.argmax(v))) for k, v in places.items() if v.any()}
-    where |= nowhere
-    if len(off):
-        where["length"] = _place(wo, u, p, int(np.argmax(off)))
-    return Draws(
-        len(bad),
-        int(bad.sum()),
-        float(off.max(initial=0.0)),
-        int(unreachable.sum()),
-        int(blown.sum()),
-        float(np.where(np.isfinite(weight), weight, 0.0).max(initial=0.0)),
-        where,
-    )
 
 
 def _weights(rung: Rung, wo: Array, w: Array, p: NamedTuple) -> tuple[Any, Any]:
@@ -88,21 +80,8 @@ def _weights(rung: Rung, wo: Array, w: Array, p: NamedTuple) -> tuple[Any, Any]:
     return rung.f(wo, wi, p).astype(np.float64) * wi[:, 2].astype(np.float64) / density, density
 
 
-def _place(wo: Array, u: Array, p: NamedTuple, i: int) -> dict[str, Any]:
+def _place(wo: Array, u: Array, p: NamedTuple, score: Array) -> dict[str, Any]:
+    """Where a score is largest."""
+    i = int(np.argmax(score))
     vectors = {"wo": [float(x) for x in wo[i]], "u": [float(x) for x in u[i]]}
     return {**vectors, "p": {n: float(v) for n, v in zip(p._fields, p, strict=False)}}
-
-
-def _together(a: Draws, b: Draws) -> Draws:
-    where = {**b.where, **a.where}
-    if b.length > a.length:
-        where["length"] = b.where["length"]
-    return Draws(
-        a.count + b.count,
-        a.nan + b.nan,
-        max(a.length, b.length),
-        a.unreachable + b.unreachable,
-        a.weightless + b.weightless,
-        max(a.largest_weight, b.largest_weight),
-        where,
-    )

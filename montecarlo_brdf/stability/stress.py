@@ -29,8 +29,8 @@ KINDS = ("nan", "inf", "negative", "flushed")
 class Found(NamedTuple):
     """A point and how wrong the model is there."""
 
-    wo: Any
-    wi: Any
+    wo: Array
+    wi: Array
     p: NamedTuple
     value: float
     truth: float
@@ -54,9 +54,7 @@ class Loss:
     first: dict[str, Found] = field(default_factory=dict)
     safe: tuple[str, float] | None = None  # parameter, value from which on errors are tolerable
     sharpness: list[tuple[float, float]] = field(default_factory=list)  # (value, worst own error)
-    heat: list[tuple[float, float, float]] = field(
-        default_factory=list
-    )  # (theta_deg, value, error)
+    heat: list[tuple[float, float, float]] = field(default_factory=list)  # (degrees, value, error)
     draws: sampling.Draws | None = None
 
 
@@ -71,7 +69,7 @@ def loss(
     """Stress one model in one precision over parameter sets; deterministic."""
     narrow, wide = Rung(model, arithmetic), Rung(model, wider(arithmetic))
     result = Loss(arithmetic.name, tolerance or arithmetic.tolerance, arithmetic.eps)
-    candidates: list[tuple[Found, Any]] = []
+    candidates: list[tuple[Found, Array]] = []
     for i, p in enumerate(sets):
         q = rounded(p, arithmetic)
         if q is not None:
@@ -88,7 +86,7 @@ def loss(
 
 def _one_set(
     result: Loss, narrow: Rung, wide: Rung, p: NamedTuple, q: NamedTuple, quick: bool
-) -> list[tuple[Found, Any]]:
+) -> list[tuple[Found, Array]]:
     """Evaluate the designed set of one parameter set; its worst points, to climb from."""
     points = designed.directions(narrow.arithmetic, designed.width_of(narrow.model, p), quick)
     if wide.arithmetic is exact():
@@ -159,7 +157,7 @@ def _climb_from(
     result: Loss,
     narrow: Rung,
     wide: Rung,
-    candidates: list[tuple[Found, Any]],
+    candidates: list[tuple[Found, Array]],
     quick: bool,
 ) -> None:
     rng = np.random.default_rng(7)
@@ -191,12 +189,7 @@ def _safe(result: Loss, model: Model) -> tuple[str, float] | None:
 
 def at(points: Points, p: NamedTuple, found: Errors, i: int) -> Found:
     """Point i of an evaluation."""
-    numbers = (
-        float(found.value[i]),
-        float(found.truth[i]),
-        float(found.total[i]),
-        float(found.own[i]),
-    )
+    numbers = (float(one[i]) for one in (found.value, found.truth, found.total, found.own))
     return Found(points.wo[i], points.wi[i], p, *numbers)
 
 
@@ -220,7 +213,7 @@ def climb(
     return best
 
 
-def _neighbours(w: Array, arithmetic: Arithmetic, rng: np.random.Generator) -> Any:
+def _neighbours(w: Array, arithmetic: Arithmetic, rng: np.random.Generator) -> Array:
     """Unit vectors around w, at distances from one rounding to a tenth, above the horizon."""
     size = 10.0 ** rng.uniform(np.log10(arithmetic.eps), np.log10(FARTHEST), (NEIGHBOURS, 1))
     near = w.astype(np.float64) + size * rng.standard_normal((NEIGHBOURS, 3))

@@ -5,8 +5,6 @@ tol = 1e-13 in double and 1e-5 in single, beyond what the inputs determine (stab
 
 from __future__ import annotations
 
-import math
-
 import pytest
 
 from montecarlo_brdf import loading
@@ -39,9 +37,8 @@ def test_digits(name: str, precision: str) -> None:
 @pytest.mark.parametrize("name", [n for n in loading.names() if loading.load(n).sample])
 def test_samplers_under_hostile_numbers(name: str) -> None:
     draws = stressed_sampler(name)
-    assert draws.nan == draws.unreachable == draws.weightless == 0
+    assert set(draws.counts.values()) == {0}
     assert draws.length <= 32 * 2.0**-52
-    assert math.isfinite(draws.largest_weight)
 
 
 def stressed_sampler(name: str):  # type: ignore[no-untyped-def]
