@@ -18,7 +18,7 @@ TABLE = PACKAGE.parent / "docs" / "statistics.md"
 FOLDERS = ("checks", "cases", "judge", "stability", "verify")
 ESTIMATE = ("adaptive", "ascent", "ends", "plan", "trust")
 FILES = ("statistics", *(f"estimate/{name}" for name in ESTIMATE))
-HINTS = {"checks/_hints", "judge/hint", "verify/bench"}  # decide nothing
+HINTS = {"checks/_hints", "judge/hint", "verify/bench", "verify/failure"}  # decide nothing
 #: where numbers stand in a kernel's rows
 PLACES = {
     "AT", "STOP", "NEXT", "TAKEN", "SIZES", "TABLE", "COLUMNS", "FEWEST", "HOPELESS", "STEEPEST",
