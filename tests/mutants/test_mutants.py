@@ -6,7 +6,9 @@ kernels (scripts/effort.py), one or two for a law of f and up to ten for all che
 asks at low effort
 
 - every mutant of a law of f, and the first of each other check, until a claim fails,
-- every honest and every built-in model the laws of f, and a few honest ones everything;
+- every honest and every built-in model the laws of f, and a few honest ones everything,
+
+but for those whose docstring says "suite: slow": they cost as much and ask the same kinds again;
 
 `python -m pytest -m slow tests/mutants` asks the other mutants at low effort, those that it misses
 at full effort, every honest model everything at low and at full effort, and whether the list of
@@ -47,7 +49,7 @@ SHORT = {"both_from_one_number", "sampler_without_pdf", "weights_alone"}
 
 
 def _told(path: Path, what: str) -> str:
-    """What a docstring says of the mutant, "" where it does not."""
+    """What a docstring says of its model, "" where it does not."""
     found = re.findall(rf"^{what}: (.+)$", path.read_text(encoding="utf-8"), re.MULTILINE)
     return str(found[0]) if found else ""
 
@@ -55,6 +57,11 @@ def _told(path: Path, what: str) -> str:
 def meant(path: Path) -> str:
     """The check that a mutant's docstring names."""
     return _told(path, "caught by")
+
+
+def later(path: Path) -> bool:
+    """Whether a model is left to `-m slow` altogether."""
+    return _told(path, "suite") == "slow"
 
 
 def refuted(path: Path, effort: float) -> bool:
@@ -75,7 +82,7 @@ def failures(spec: str, effort: float, names: tuple[str, ...] | None = None) -> 
 
 
 def _first(check: str) -> Path:
-    return next(p for p in MUTANTS if meant(p) == check and p.stem not in MISSED)
+    return next(p for p in CAUGHT if meant(p) == check and not later(p))
 
 
 def _marked(paths: list[Path], quick: set[Path]) -> list[object]:
@@ -84,7 +91,8 @@ def _marked(paths: list[Path], quick: set[Path]) -> list[object]:
 
 
 CAUGHT = [p for p in MUTANTS if p.stem not in MISSED]
-QUICK = {p for p in CAUGHT if meant(p) in OF_F} | {_first(c) for c in checks.names()}
+OFTEN = {p for p in CAUGHT + HONEST if not later(p)}
+QUICK = {p for p in OFTEN if meant(p) in OF_F} | {_first(c) for c in checks.names()}
 
 
 @pytest.mark.parametrize("path", _marked(CAUGHT, QUICK))
@@ -101,7 +109,7 @@ def test_mutant_that_low_effort_misses_is_refuted(name: str) -> None:
     assert not refuted(path, LOW)
 
 
-@pytest.mark.parametrize("path", HONEST, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", _marked(HONEST, OFTEN))
 def test_honest_model_keeps_the_laws_of_f(path: Path) -> None:
     assert failures(str(path), LOW, OF_F) == []
 
