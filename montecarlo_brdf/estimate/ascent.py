@@ -10,7 +10,7 @@ import ctypes
 import functools
 import math
 from array import array
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
@@ -49,10 +49,8 @@ COLUMNS = 6  # samples of a replicate and the shape of the point set
 #: error may fall from one size to the next), then a factor for each look
 FEWEST, HOPELESS, STEEPEST, FACTORS = 1, 2, 3, 4
 
-MOMENTS: Any = hole()
-HIGHEST: Any = hole()
-PROBED: Any = hole()  # how many directions, 0 for none
-CHANNELS: Any = hole()
+MOMENTS = HIGHEST = CHANNELS = hole()
+PROBED = hole()  # how many directions, 0 for none
 
 
 def climb(ints: Ints, reals: Reals, out: Out) -> None:
@@ -130,14 +128,8 @@ def looks_of(
     """The kernel of all looks: a mean, and how to probe its integrand if at all."""
     means = template_of(points, [mean], layout)
     highest = template_of("counted", [probe], layout) if probe else means
-    return kernel(
-        model,
-        climb,
-        MOMENTS=means,
-        HIGHEST=highest,
-        PROBED=PROBES if probe else 0,
-        CHANNELS=len(layout.places),
-    )
+    count, channels = PROBES if probe else 0, len(layout.places)
+    return kernel(model, climb, MOMENTS=means, HIGHEST=highest, PROBED=count, CHANNELS=channels)
 
 
 @functools.cache

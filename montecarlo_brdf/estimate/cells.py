@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.bits import u64
 from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
@@ -27,10 +27,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-PARAMETERS: Any = hole()
-SAMPLE: Any = hole()
-PDF: Any = hole()
-LINE: Any = hole()
+PARAMETERS = SAMPLE = PDF = LINE = hole()
 
 ROWS, COLUMNS = 12, 16
 FIXED = 4  # numbers before the edges

@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import math
 from array import array
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import kernel
@@ -21,9 +21,7 @@ from montecarlo_brdf.sampling.directions import Given, Sampler
 from montecarlo_brdf.statistics import SAME
 from montecarlo_brdf.vectors import Vec
 
-PARAMETERS: Any = hole()
-SAMPLE: Any = hole()
-INTEGRAND: Any = hole()
+PARAMETERS = SAMPLE = INTEGRAND = hole()
 
 #: cells towards each end of a number, and values of the other number in each
 OCTAVES, ACROSS = 24, 8
@@ -85,11 +83,9 @@ def at_ends(model: Model, ready: Prepared, wo: Vec) -> Ends:
 def _rows(model: Model, ready: Prepared, wo: Vec) -> list[list[tuple[float, float]]]:
     """(cos, weight) in the cells of each row."""
     layout, numbers = pack([ready], 0)
-    names: dict[str, object] = {"SAMPLE": model.sample, "PARAMETERS": Unpack(layout)}
-    if Sampler.OWN in samplers_of(model):
-        names["INTEGRAND"] = integrand(model, Quantity.ALBEDO, Sampler.OWN).template
-    else:
-        names["INTEGRAND"] = unknown
+    known = Sampler.OWN in samplers_of(model)
+    weight = integrand(model, Quantity.ALBEDO, Sampler.OWN).template if known else unknown
+    names = {"SAMPLE": model.sample, "PARAMETERS": Unpack(layout), "INTEGRAND": weight}
     n = ROWS * OCTAVES
     ints = array("q", (n, len(numbers)))
     reals = array("d", (*numbers, *wo, *_numbers()))

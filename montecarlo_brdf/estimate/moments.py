@@ -33,24 +33,12 @@ QUERY = 4
 #: numbers kept per replicate and channel: count, mean, sum of squared deviations, largest x
 STATE = 4
 
-POINTS: Any = hole()
-STEP_ONE: Any = hole()
-STEP_TWO: Any = hole()
-STEP_THREE: Any = hole()
-STEPS: Any = hole()  # how many of these are taken
-STEP: Any = hole()
-SHAPE: Any = hole()
-STORE: Any = hole()
-FIRST: Any = hole()
-SECOND: Any = hole()
-THIRD: Any = hole()
-FOURTH: Any = hole()
-FIFTH: Any = hole()
-PARAMETERS: Any = hole()
-BUFFER: Any = hole()
-ROW: Any = hole()
-CHANNELS: Any = hole()  # parameter sets
-SLOTS: Any = hole()  # integrands
+POINTS = SHAPE = STORE = PARAMETERS = BUFFER = ROW = hole()
+STEP = STEP_ONE = STEP_TWO = STEP_THREE = hole()
+STEPS = hole()  # how many of these are taken
+FIRST = SECOND = THIRD = FOURTH = FIFTH = hole()
+CHANNELS = hole()  # parameter sets
+SLOTS = hole()  # integrands
 #: what a kernel calls its integrands
 NAMES = ("FIRST", "SECOND", "THIRD", "FOURTH", "FIFTH")
 

@@ -39,7 +39,7 @@ LUCK = 5e-3
 FASTEST = 1.0
 #: standard errors that the truth is from an estimate at most, where that only saves work
 SURE = 4.0
-UNFIT = "unfit"  # instead of a verdict, of an estimator that is not to be believed
+UNFIT = "unfit"  # what is shown of an estimator that is not to be believed
 
 
 class Opinion(NamedTuple):
@@ -47,7 +47,7 @@ class Opinion(NamedTuple):
 
     measurement: Measurement
     half_width: float
-    verdict: str  # a Verdict or UNFIT
+    verdict: Verdict | None  # None: it is unfit
 
 
 Opinions = list[Opinion]
@@ -58,17 +58,16 @@ def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> O
     fit = [m for m in measurements if not m.unfit]
     each = level / max(1, len(fit))
     best = min(fit, key=lambda m: m.half_width(each), default=None)
-    opinions = []
-    for m in measurements:
-        half = m.half_width(each)
-        verdict = UNFIT if m.unfit else _verdict(claim, m, best, half, each)
-        opinions.append(Opinion(m, half, verdict))
+    opinions = [
+        Opinion(m, m.half_width(each), None if m.unfit else _verdict(claim, m, best, each))
+        for m in measurements
+    ]
     if claim.expected is None and sum(o.verdict == Verdict.PASS for o in opinions) < 2:
         # one estimator alone agrees with itself
         opinions = changed(opinions, lambda o: o.verdict == Verdict.PASS, Verdict.INCONCLUSIVE)
     if claim.bound == Bound.AT_MOST and best is not None:
         # a bound is decided by the most precise estimator; the others only speak up to refute
-        quiet = (UNFIT, Verdict.FAIL)
+        quiet = (None, Verdict.FAIL)
         opinions = changed(
             opinions, lambda o: o.measurement is not best and o.verdict not in quiet, Verdict.PASS
         )
@@ -80,15 +79,13 @@ def changed(opinions: Opinions, which: Callable[[Opinion], bool], to: Verdict) -
     return [o._replace(verdict=to) if which(o) else o for o in opinions]
 
 
-def _verdict(
-    claim: MeanClaim, m: Measurement, best: Measurement | None, half: float, level: float
-) -> Verdict:
+def _verdict(claim: MeanClaim, m: Measurement, best: Measurement | None, level: float) -> Verdict:
     value, expected = m.estimate.mean, claim.expected
     if expected is None:
         if best is None or m is best:
             return Verdict.PASS if math.isfinite(value) else Verdict.FAIL
         expected = Reference(best.estimate.mean, best.half_width(level), Kind.SAME_F, "")
-    return expected.verdict(claim.bound, value, half, claim.tolerance)
+    return expected.verdict(claim.bound, value, m.half_width(level), claim.tolerance)
 
 
 def overall(opinions: Opinions) -> Verdict:
@@ -116,7 +113,7 @@ def settled(claim: MeanClaim, opinions: Opinions, most: int) -> bool:
 
 def _hopeless(claim: MeanClaim, o: Opinion, most: int) -> bool:
     e, expected = o.measurement.estimate, claim.expected
-    if o.verdict == UNFIT:
+    if o.verdict is None:
         return o.measurement.needs > most
     if expected is None or needed(claim, o, FASTEST) <= most:
         return False
@@ -130,7 +127,7 @@ def telling(opinions: Opinions) -> Opinion:
 
     Samples come before a quadrature: its value is shown where they leave the claim open.
     """
-    order = {Verdict.FAIL: 0, Verdict.PASS: 1, Verdict.INCONCLUSIVE: 2, UNFIT: 3}
+    order = {Verdict.FAIL: 0, Verdict.PASS: 1, Verdict.INCONCLUSIVE: 2, None: 3}
 
     def rank(o: Opinion) -> tuple[int, bool, float]:
         return order[o.verdict], o.measurement.bound is not None, o.half_width
@@ -264,12 +261,9 @@ def _compared_last(claim: MeanClaim, opinions: Opinions, seed: int, level: float
 
 
 def _finding(
-    claim: MeanClaim,
-    opinions: Opinions,
-    level: float,
-    looked: tuple[int, int],  # samples of the last look taken, and of the last one allowed
-    known: str | None,
+    claim: MeanClaim, opinions: Opinions, level: float, looked: tuple[int, int], known: str | None
 ) -> Finding:
+    """looked: samples of the last look taken, and of the last one allowed."""
     shown, verdict = telling(opinions), overall(opinions)
     fit = sum(not o.measurement.unfit for o in opinions)
     last = level * 2.0 ** -len(looks(looked[1])) / max(1, fit)
@@ -298,7 +292,7 @@ def _row(claim: MeanClaim, opinion: Opinion) -> dict[str, object]:
     m = opinion.measurement
     row: dict[str, object] = {
         "estimator": m.estimator, "value": m.estimate.mean, "stderr": m.estimate.stderr,
-        "samples": m.estimate.samples, "verdict": opinion.verdict,
+        "samples": m.estimate.samples, "verdict": opinion.verdict or UNFIT,
     }  # fmt: skip
     if m.unfit:
         row["not_used"] = m.unfit

@@ -8,6 +8,7 @@ import itertools
 import random
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
@@ -15,8 +16,10 @@ from montecarlo_brdf.errors import ModelError, Raised
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.model import Model, ParameterSet, channels
 from montecarlo_brdf.sampling.warps import random_hemisphere
-from montecarlo_brdf.scene.surface import Lobe
 from montecarlo_brdf.vectors import Vec, from_degrees, mirrored
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.scene.surface import Lobe
 
 PATIENCE = 2.0  # seconds of looking
 RANDOM = 2000  # pairs of directions, beside the chosen ones
