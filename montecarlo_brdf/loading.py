@@ -32,6 +32,8 @@ from montecarlo_brdf.model import (
 )
 
 Namespace = Mapping[str, Any]
+#: suffixes of languages that no model is written in
+SHADERS = ("glsl", "hlsl", "frag", "comp", "vert", "osl", "wgsl", "metal", "c", "cpp", "h", "cu")
 FOLDER = Path(__file__).parent / "models"
 
 
@@ -64,9 +66,17 @@ def load(spec: str, **picks: str) -> Model:
     elif spec in names():
         namespace = vars(importlib.import_module(f"montecarlo_brdf.models.{spec}"))
     else:
-        raise UserError(unknown("model", spec, names()) + ", or give the path of a .py file")
+        raise UserError(_no_model(spec))
     model = build(spec, namespace, built_in=spec in names())
     return model.variant(**picks) if picks else model
+
+
+def _no_model(spec: str) -> str:
+    """Why a name stands for no model."""
+    suffix = Path(spec).suffix
+    if suffix and suffix[1:].isalpha() and (os.path.isfile(spec) or suffix[1:] in SHADERS):
+        return f"{spec} is no Python file: a model is one, with a function f(wo, wi, p)"
+    return unknown("model", spec, names()) + ", or give the path of a .py file"
 
 
 def _from_file(path: Path) -> types.ModuleType:

@@ -90,11 +90,18 @@ def parts(spec: str) -> list[tuple[float, str]] | None:
     """[(weight, model), ...] of "0.6 lambert + 0.4 ggx"; None if `spec` is not a mixture."""
     pieces = [piece.strip() for piece in spec.split(" + ")]
     found = [re.fullmatch(r"(?:(\S+)\s+)?(\S+)", piece) for piece in pieces]
-    if len(pieces) == 1 and not (found[0] and found[0].group(1)):
-        return None
+    if len(pieces) == 1 and not (found[0] and _is_number(found[0].group(1))):
+        return None  # also "my brdf.py", a path with a blank
     if not all(found):
         raise UserError(f'a mixture is written "0.6 lambert + 0.4 ggx", not {spec!r}')
     return [(_weight(m.group(1), spec), m.group(2)) for m in found if m]
+
+
+def _is_number(text: str | None) -> bool:
+    try:
+        return text is not None and math.isfinite(float(text))
+    except ValueError:
+        return False
 
 
 def _weight(text: str | None, spec: str) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import difflib
 import itertools
 import math
 import re
@@ -70,8 +71,15 @@ class Table:
         if key in self.data:
             return self.data[key]
         if default is REQUIRED:
+            self._complain_of_misspelling(key)
             raise self.error(f"{self.title()} needs {key!r}")
         return default
+
+    def _complain_of_misspelling(self, key: str) -> None:
+        """The key that stands in place of a missing one is what to look at."""
+        others = [name for name in self.data if name not in self._known]
+        for near in difflib.get_close_matches(key, others, n=1):
+            raise self.error(unknown(f"key of {self.title()}", near, [key]), near)
 
     def know(self, *keys: str) -> None:
         """Keys that may stand here."""

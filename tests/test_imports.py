@@ -19,7 +19,7 @@ FLOW = (
     ("compile", "statistics"),
     ("arithmetic",),
     ("sampling",),
-    ("loading", "mixture", "model", "models"),
+    ("counterpart", "loading", "mixture", "model", "models"),
     ("estimate",),
     ("cases",),
     ("judge",),

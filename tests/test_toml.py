@@ -63,3 +63,12 @@ def test_keys_that_nobody_takes(tmp_path: Path) -> None:
     first.done()
     with pytest.raises(UserError, match=r"line 9: no key of \[\[rows\]\] 2 'inner'"):
         second.done()
+
+
+def test_a_misspelt_key_is_told_in_place_of_a_missing_one(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text('name = "x"\n[surfce]\nmodel = "lambert"\n', encoding="utf-8")
+    table = Table(path, path.read_text(), parse(path)[0])
+    table.know("name")
+    with pytest.raises(UserError, match="line 2: no key of the scene 'surfce'; did you mean"):
+        table.table("surface")

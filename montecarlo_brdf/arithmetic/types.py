@@ -88,6 +88,8 @@ def ladder() -> dict[str, Arithmetic]:
 
 def precision(name: str) -> Arithmetic:
     """The type called `name`, or a UserError."""
+    if name == "bfloat16" and name not in ladder():
+        raise UserError("precision bfloat16 needs the package ml_dtypes: pip install ml_dtypes")
     if name not in ladder():
         raise UserError(unknown("precision", name, ladder()))
     return ladder()[name]

@@ -56,12 +56,14 @@ def claims(case: Case) -> Iterator[Claim]:
         Bound.AT_MOST,
         Reference(0.0, 0.0, Kind.DECLARED, f"same as {other.name}"),
         case.tolerated(TOLERANCE),
-        lambda: _worst(case, other),
+        lambda: worst(case, other),
         property=PROPERTY,
     )
 
 
-def _worst(case: Case, other: Model) -> Exact:
+def worst(case: Case, other: Model) -> Exact:
+    """The worst difference over the directions, and over the ranges of free parameters."""
+
     def apart(wo: Array, wi: Array, sets: Rows) -> Array:
         same = parameter_rows(other, sets.columns(other.Params), shared(other, case.one), len(wo))
         ours = pair_values(case.model, wo, wi, sets)

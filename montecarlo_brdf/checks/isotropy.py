@@ -61,7 +61,8 @@ def _worst_turned(case: Case, p: Parameters, rng: np.random.Generator) -> Exact:
     before, after = f(wo, wi), f(_turned(wo, phi), _turned(wi, phi))
     change = _relative(before, after)
     if change.max(initial=0.0) > TOLERANCE:
-        apart = np.abs(before - after)
+        with np.errstate(invalid="ignore"):
+            apart = np.abs(before - after)
         change = directions.unexplained(change, apart, TOLERANCE, f, wo, wi, rng)
     k = int(np.argmax(change))
     where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}

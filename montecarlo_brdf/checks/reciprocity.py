@@ -76,7 +76,9 @@ def _worst_of(case: Case, p: Parameters, rng: np.random.Generator, *more: Pairs)
     relative = _relative(there, back)
     k = int(np.argmax(relative))
     if relative[k] > TOLERANCE:
-        relative = directions.unexplained(relative, np.abs(there - back), TOLERANCE, f, wo, wi, rng)
+        with np.errstate(invalid="ignore"):
+            apart = np.abs(there - back)
+        relative = directions.unexplained(relative, apart, TOLERANCE, f, wo, wi, rng)
     k = int(np.argmax(relative))
     where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
     hint = f"f = {there[k]:.6g} one way and {back[k]:.6g} the other"

@@ -13,6 +13,7 @@ import os
 import pkgutil
 import sys
 import traceback
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
@@ -96,6 +97,8 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a locale without the degree sign is no error
             stream.reconfigure(errors="replace")
+    if not os.environ.get("BRDF_CHECK_DEBUG"):  # what matters of NaN and infinity is in a verdict
+        warnings.simplefilter("ignore", RuntimeWarning)
     os._exit = _ended_by_a_model  # type: ignore[assignment]
     code = execute(sys.argv[1:])
     if os.environ.get("BRDF_CHECK_DEBUG"):  # profilers want to see the end

@@ -169,6 +169,20 @@ def finite(allowed: str = "that is finite") -> Read:
     return Read(read, "number")
 
 
+def read_tolerances(text: str, what: str) -> dict[str, float]:
+    """{"": 1e-3, "reciprocity": 1e-4} of '1e-3,reciprocity=1e-4'."""
+    found: dict[str, float] = {}
+    for part in text.split(","):
+        name, equals, value = part.rpartition("=")
+        try:
+            found[name.strip()] = number(value.strip(), what)
+        except UserError:
+            raise ValueError(f"{value!r} is not a number in [0, 1)") from None
+        if equals and not name.strip():
+            raise ValueError(f"{part!r} names no check")
+    return found
+
+
 def parameter_sets(model: Model, assignments: Sequence[str]) -> list[Any]:
     """All combinations of -p name=value: lists and ranges make cases, a/b/c makes a colour."""
     listed = axes(assignments, lambda name: model)
@@ -265,6 +279,13 @@ tolerance = partial(
     help="Allowed deviation: relative from a reference [default: 1e-4], absolute from a bound "
     "[default: 1e-5]. [--tolerance 1e-3]",
 )  # fmt: skip
+#: the same for a command that asks several checks: {check: tolerance}, of all under ""
+tolerances = partial(
+    tolerance, type=Read(read_tolerances, "number"), metavar="NUMBER|CHECK=NUMBER",
+    help="Allowed deviation of values: relative from a reference [default: 1e-4], absolute from a "
+    "bound [default: 1e-5]. Of a single check by name, as laws (reciprocity, isotropy, positivity) "
+    "keep theirs. [--tolerance 1e-3,reciprocity=1e-4]",
+)  # fmt: skip
 plot = partial(click.option, "--plot", type=FILE, metavar="FILE")
 
 
@@ -275,14 +296,14 @@ class Sampling(NamedTuple):
     samples: int | None
     seed: int
     threads: int | None
-    tolerance: float | None
+    tolerance: Any  # float | None, or those of checks
 
     def keywords(self) -> dict[str, Any]:
         """The arguments of a question; samples that were not given are left to it."""
         return {k: v for k, v in self._asdict().items() if k != "samples" or v is not None}
 
 
-def sampling_options(command: Command) -> Command:
+def sampling_options(command: Command, allowed: Callable[[], Option] = tolerance) -> Command:
     """--points, --samples, --seed, --threads, --tolerance, as one argument `sampling`."""
     return _gathered(command, "sampling", Sampling, [
         click.option("--points", default="sobol", show_default=True, metavar="SET",
@@ -293,7 +314,7 @@ def sampling_options(command: Command) -> Command:
                      "[--samples 2^20]  [default: 2^22; run: 2^20]"),
         seed(),
         threads(),
-        tolerance(),
+        allowed(),
     ])  # fmt: skip
 
 

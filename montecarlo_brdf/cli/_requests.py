@@ -6,14 +6,17 @@ docs/ci.md. A mistake is reported with its line and what is allowed.
 """
 from __future__ import annotations
 
+import contextlib
 import functools
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from montecarlo_brdf import checks, loading
-from montecarlo_brdf.cli._options import numbers, parameter_sets
+from montecarlo_brdf.cli._options import numbers, parameter_sets, whole_number
+from montecarlo_brdf.counterpart import counterpart
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.judge.finding import Policy, Report
@@ -36,11 +39,12 @@ class Terms(NamedTuple):
     names: tuple[str, ...] | None = None  # of checks; None: all
     theta_o_deg: Sequence[float] = ANGLES
     phi_o_deg: float = 0.0
-    against: Model | None = None
+    against: str | None = None  # as `counterpart` takes it
     points: str = "sobol"
     samples: int = SAMPLES
     seed: int = 0
     tolerance: float | None = None
+    tolerances: Mapping[str, float] = MappingProxyType({})  # of single checks
     effort: float = 1.0
 
 
@@ -51,6 +55,7 @@ class Request(NamedTuple):
     terms: Terms
     p: list[Any] | None = None  # None: the defaults, and a search over the whole ranges
     fixed: tuple[str, ...] = ()  # parameters that the search leaves alone
+    against: Model | None = None
 
     def title(self) -> str:
         """'lambert(albedo=0.2)'; of what is searched only the name."""
@@ -73,7 +78,7 @@ class Request(NamedTuple):
         """The report of `verify.run`."""
         return run(
             self.model, self.p, fixed=self.fixed, deadline=deadline, threads=threads,
-            progress=progress, **self.terms._asdict(),
+            progress=progress, **{**self.terms._asdict(), "against": self.against},
         )  # fmt: skip
 
 
@@ -118,10 +123,10 @@ def unless_all_broken(requests: list[Request | Broken]) -> list[Request | Broken
 
 def request(model: Model, assignments: Sequence[str], terms: Terms) -> Request:
     """The request for parameters written as -p takes them."""
-    if not assignments:
-        return Request(model, terms)
     fixed = tuple(a.partition("=")[0].strip() for a in assignments)
-    return Request(model, terms, parameter_sets(model, assignments), fixed)
+    sets = parameter_sets(model, assignments) if assignments else None
+    other = counterpart(terms.against, model, fixed) if terms.against else None
+    return Request(model, terms, sets, fixed, other)
 
 
 class Project(NamedTuple):
@@ -172,51 +177,40 @@ def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
     limit = top.number("max_time", low=1e-3) if "max_time" in data else None
     policy = Policy(top.choice("inconclusive", tuple(Policy))) if "inconclusive" in data else None
     top.know("inconclusive", "max_time", *SHARED)
-    terms, tolerances = _shared(top, Terms(), {})
+    terms = _shared(top, Terms())
     entries = top.tables("models")
     top.done()
     if not entries:
         raise top.error('there is nothing to check: add [[models]] with model = "ggx"')
-    requests = [r for e in entries for r in _requests(e, terms, tolerances, overrides or {})]
+    requests = [_request(entry, terms, overrides or {}) for entry in entries]
     return Project(unless_all_broken(requests), limit, policy)
 
 
-def _requests(
-    entry: Table, terms: Terms, tolerances: dict[str, float], overrides: Mapping[str, Any]
-) -> Iterator[Request | Broken]:
-    """The requests of one [[models]]: one for each tolerance that some of its checks have."""
+def _request(entry: Table, terms: Terms, overrides: Mapping[str, Any]) -> Request | Broken:
+    """The request of one [[models]]."""
     entry.know("model", "params", "against", *SHARED)
-    terms, tolerances = _shared(entry, terms, tolerances)
+    terms = _shared(entry, terms)
     try:
         model = _model(entry, "model")
     except ModelError as error:
-        yield Broken(entry.text_of("model"), error)
-        return
+        return Broken(entry.text_of("model"), error)
     if "against" in entry.data:
-        terms = terms._replace(against=_model(entry, "against"))
+        terms = terms._replace(against=_against(entry))
     assignments = _assignments(entry)
     entry.done()
     terms = terms._replace(**overrides)
     try:
-        whole = request(model, assignments, terms)
+        return request(model, assignments, terms)
     except UserError as error:
-        raise entry.error(str(error), "params") from error
-    if "tolerance" in overrides or not tolerances:
-        yield whole
-        return
-    names = terms.names or tuple(checks.names())
-    for tolerance in dict.fromkeys(tolerances.get(n, terms.tolerance) for n in names):
-        same = tuple(n for n in names if tolerances.get(n, terms.tolerance) == tolerance)
-        yield whole._replace(terms=terms._replace(names=same, tolerance=tolerance))
+        key = "params" if "params" in entry.data else "against"
+        raise entry.error(str(error), key) from error
 
 
-def _shared(
-    table: Table, above: Terms, tolerances: dict[str, float]
-) -> tuple[Terms, dict[str, float]]:
+def _shared(table: Table, above: Terms) -> Terms:
     """What may stand at the top and in [[models]]: terms, and a tolerance per check."""
     asked = [(key, *READ[key]) for key in table.data if key in READ]
     found = {field: read(table, key) for key, field, read in asked}
-    return above._replace(**found), {**tolerances, **_tolerances(table)}
+    return above._replace(**found, tolerances={**above.tolerances, **_tolerances(table)})
 
 
 def _checks(table: Table, key: str) -> tuple[str, ...]:
@@ -245,6 +239,8 @@ def _angles(table: Table, key: str) -> list[float]:
     value = table.take(key)
     try:
         listed = value if isinstance(value, list) else [value]
+        if not listed:
+            raise UserError(f"{key} needs an angle at least")
         angles = [a for v in listed for a in numbers(str(v), key)]
         for angle in angles:
             check_theta(angle, key)
@@ -255,6 +251,9 @@ def _angles(table: Table, key: str) -> list[float]:
 
 def _whole(low: int, high: int, table: Table, key: str) -> int:
     value = table.take(key)
+    if isinstance(value, str):  # "2^20", as on the command line
+        with contextlib.suppress(ValueError):
+            value = whole_number(value, key)
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
         raise table.error(f"{key} must be a whole number from {low} to {high}, not {value!r}", key)
     return value
@@ -264,17 +263,37 @@ def _tolerance(table: Table, key: str) -> float:
     return table.number(key, low=0.0, high=1.0 - 1e-12)
 
 
-def _model(table: Table, key: str) -> Model:
-    """A model by name or by a path that starts at the file's folder."""
+def _spec(table: Table, key: str) -> str:
+    """A model's name, or its path, which starts at the file's folder."""
     spec = table.text_of(key)
     folder = table.file.parent
     if ".py" in spec and not Path(spec).is_absolute() and folder != Path():
-        spec = os.path.relpath(folder / spec)
+        return os.path.relpath(folder / spec)
+    return spec
+
+
+def _model(table: Table, key: str) -> Model:
+    """The model that a key names."""
     try:
-        return loading.load(spec)
+        return loading.load(_spec(table, key))
     except UserError as error:
         wrapped = table.error(str(error), key)
         raise type(error)(str(wrapped)) from error
+
+
+def _against(entry: Table) -> str:
+    """A name, a path, or { model = ..., params = { theirs = "ours" } }."""
+    if isinstance(entry.data["against"], str):
+        return _spec(entry, "against")
+    inner = entry.table("against")
+    spec = _spec(inner, "model")
+    params = inner.table("params", {}).data
+    inner.done()
+    for name, value in params.items():
+        if isinstance(value, bool) or not isinstance(value, (str, int, float)):
+            raise inner.error(f"{name} must be a name of ours or a number, not {value!r}", "params")
+    said = ", ".join(f"{name}={value}" for name, value in params.items())
+    return f"{spec}({said})" if said else spec
 
 
 def _assignments(entry: Table) -> list[str]:

@@ -14,6 +14,7 @@ from typing import TextIO
 
 import click
 
+from montecarlo_brdf.compile import cache
 from montecarlo_brdf.report.text import PLAIN_WIDTH
 
 PATIENCE = 0.5
@@ -63,6 +64,9 @@ def tell(text: str) -> None:
 @contextlib.contextmanager
 def progress(title: str) -> Iterator[Callable[[float], None]]:
     """A callback for the fraction done; draws nothing unless stderr is a terminal."""
+    if why := cache.fault():
+        slow = "everything is compiled anew each time"
+        click.echo(f"Warning: cannot write to {cache.directory()} ({why}): {slow}", err=True)
     started = time.monotonic()
     due = started + PATIENCE
     drawn = False

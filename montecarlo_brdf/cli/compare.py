@@ -17,6 +17,8 @@ Examples:
   brdf-check compare my_ggx.py ggx -p alpha=0.1,0.5
   brdf-check compare ggx beckmann --theta-o 0:85:6 --tolerance 0.01
   brdf-check compare phong lafortune_willems --format markdown
+  brdf-check compare my_fit.py ggx --declared 0.005
+  brdf-check compare my_aniso.py 'ggx_anisotropic(alpha_x=ax, alpha_y=ay)'
 """
 
 
@@ -30,27 +32,33 @@ Examples:
 @_options.phi_o(help="Its azimuth. [--phi-o 45]")
 @_options.tolerance(help="Allowed relative deviation [default: 1e-6 of f, 1e-4 of A and R]. "
                     "[--tolerance 0.01]")  # fmt: skip
+@click.option("--declared", type=_options.finite("above 0"), metavar="TOLERANCE",
+              help="Only hold the albedo() that A declares, a fit or a table, against B's A: to "
+              "this absolute tolerance. [--declared 0.005]")  # fmt: skip
 @_options.seed(help="Of the random directions: a number, or random (printed). [--seed 7]")
 @_options.output_options
 def command(
     model: str, other: str, assignments: tuple[str, ...], theta_o: list[float], phi_o: float,
-    tolerance: float | None, seed: int, output: _options.Output,
+    tolerance: float | None, declared: float | None, seed: int, output: _options.Output,
 ) -> int:  # fmt: skip
     """Do two models agree? The columns estimate and expected are A's and B's.
 
     f is compared over thousands of pairs of directions, the albedo A(wo) and the reverse albedo
-    R(wi) by quadrature with error bounds. Parameters without -p have their defaults.
+    R(wi) by quadrature with error bounds. Parameters have A's defaults, and without -p f is also
+    searched over the ranges that both models have. "B(their=our)" maps parameters.
     """
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._terminal import progress
+    from montecarlo_brdf.counterpart import counterpart
     from montecarlo_brdf.verify.compare import compare
 
-    first, second = loading.load(model), loading.load(other)
+    first = loading.load(model)
+    second = counterpart(other, first, known(first)) if "(" in other else loading.load(other)
     output.check()
     with progress(f"compare {first.name} {second.name}") as update:
         report = compare(
-            first, second, pairs(first, second, assignments), theta_o, phi_o_deg=phi_o,
-            tolerance=tolerance, seed=seed, progress=update,
+            first, second, pairs(first, second, assignments) if assignments else None, theta_o,
+            phi_o_deg=phi_o, tolerance=tolerance, declared=declared, seed=seed, progress=update,
         )  # fmt: skip
     return _options.deliver(report, output)
 

@@ -1,11 +1,12 @@
 """brdf-check run"""
 from __future__ import annotations
 
+import functools
 import gc
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -49,7 +50,8 @@ Examples:
                   "[--theta-o 0:85:6]")  # fmt: skip
 @_options.phi_o()
 @click.option("--against", metavar="MODEL",
-              help="A model that it must equal in values. [--against ggx]")
+              help="A model that it must equal in values, its parameters named as in this one. "
+              "[--against ggx  --against 'ggx_anisotropic(alpha_x=ax, alpha_y=ay)']")
 @click.option("--max-time", type=float, metavar="SECONDS",
               help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
 @click.option("--effort", type=finite("in (0, 1]"), default=1.0, show_default=True,
@@ -57,7 +59,7 @@ Examples:
 @click.option("--baseline", type=_options.FILE, metavar="REPORT.json",
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
               "[--baseline main.json]")  # fmt: skip
-@_options.sampling_options
+@functools.partial(_options.sampling_options, allowed=_options.tolerances)
 @_options.output_options
 def command(
     spec: str | None, assignments: tuple[str, ...], config: Path | None, names: str | list[str],
@@ -67,7 +69,6 @@ def command(
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
     Without --model: the models and cases of the project's brdf-check.toml (docs/ci.md)."""
-    from montecarlo_brdf import loading
     from montecarlo_brdf.cli._requests import Terms
     from montecarlo_brdf.files import know_input
     from montecarlo_brdf.report.json import read_report
@@ -78,15 +79,19 @@ def command(
     earlier = read_report(baseline) if baseline else None
     if baseline:
         know_input(baseline)
+    if spec and config:
+        raise UserError("give --model or --config, not both: the file says what to check")
     if spec:
         keywords = sampling.keywords()
         threads = keywords.pop("threads")
-        other = loading.load(against) if against else None
+        keywords |= tolerated(keywords.pop("tolerance"))
         chosen = None if isinstance(names, str) else tuple(names)
-        terms = Terms(chosen, theta_o, phi_o, other, effort=effort, **keywords)
+        terms = Terms(chosen, theta_o, phi_o, against, effort=effort, **keywords)
         requests = asked_models(models_of(spec), assignments, terms)
     else:
-        project = asked_project(config, {**sampling._asdict(), "effort": effort})
+        allowed = tolerated(sampling.tolerance)
+        given = {**sampling._asdict(), **allowed, "effort": effort}
+        project = asked_project(config, given)
         requests, threads = project.requests, sampling.threads
         max_time = max_time or project.max_time
         output = output._replace(inconclusive=output.inconclusive or project.inconclusive)
@@ -95,6 +100,12 @@ def command(
         raise UserError(f"max-time must be a positive number of seconds, not {max_time}")
     report = gather(requests, threads, Deadline(math.inf if max_time is None else max_time))
     return finish(report, output, earlier)
+
+
+def tolerated(given: Mapping[str, float] | None) -> dict[str, Any]:
+    """Fields of Terms: what is allowed of values, and of single checks."""
+    named = {name: value for name, value in (given or {}).items() if name}
+    return {"tolerance": (given or {}).get(""), "tolerances": named}
 
 
 def asked_models(
@@ -125,7 +136,10 @@ def asked_project(config: Path | None, options: Mapping[str, object]) -> Project
     local = [flag for name, flag in LOCAL.items() if name in given]
     if local:
         raise UserError(f"{', '.join(local)} needs --model: {path} says what to check of which")
-    return _requests.read(path, {k: v for k, v in options.items() if k in given & ABOVE})
+    above = {k: v for k, v in options.items() if k in given & ABOVE}
+    if "tolerance" in above:
+        above["tolerances"] = options["tolerances"]
+    return _requests.read(path, above)
 
 
 def given_options() -> set[str]:

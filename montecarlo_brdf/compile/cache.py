@@ -51,6 +51,16 @@ def directory() -> Path:
     return Path(platformdirs.user_cache_dir("montecarlo_brdf"))
 
 
+def fault() -> str | None:
+    """Why nothing can be stored, or None if it can."""
+    folder = directory()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        return error.strerror or str(error)
+    return None if os.access(folder, os.W_OK | os.X_OK) else "permission denied"
+
+
 def read(name: str) -> bytes | None:
     """The stored image, or None if it is absent, unreadable or damaged."""
     content = _content(f"{name}.o")

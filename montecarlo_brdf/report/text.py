@@ -338,7 +338,8 @@ def summary(report: Report, colour: bool = False) -> str:
     drawn = [f.samples for f in findings if f.samples and f.level is not None]
     samples = min(max(drawn, default=0), report.settings.get("samples", math.inf))
     points = f"{kind} points, " if (kind := report.settings.get("points")) else ""
+    drawing = f"up to {samples} samples a claim, {points}" if samples else ""
     return (
-        f"{verdict}  {tally(findings)}; up to {samples} samples a claim, {points}"
-        f"seed {report.settings.get('seed')}; chance of a false alarm <= {report.level:.1g}"
+        f"{verdict}  {tally(findings)}; {drawing}seed {report.settings.get('seed')}; "
+        f"chance of a false alarm <= {report.level:.1g}"
     )

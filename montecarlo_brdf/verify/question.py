@@ -215,6 +215,8 @@ def chosen(
     if asked == "all":
         return list(offered)
     names = [asked] if isinstance(asked, str) else list(asked)
+    if "all" in names:
+        raise UserError(f"'all' stands alone, for every {kind}: leave out the other names")
     for name in names:
         if name not in offered:
             raise UserError(unknown(kind, name, ("all", *(known or offered))))

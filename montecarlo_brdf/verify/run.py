@@ -8,15 +8,16 @@ from __future__ import annotations
 import functools
 import shlex
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.errors import ModelError, TooSlow
 from montecarlo_brdf.estimate.plan import Plan, Progress, check_theta
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, Property
 from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.question import (
     Question,
@@ -35,6 +36,8 @@ from montecarlo_brdf.verify.supervision import Deadline, supervised
 ANGLES = (0.0, 45.0, 80.0)
 SAMPLES = 1 << 20
 GRACE = 1.0  # seconds that a claim may go on after --max-time
+#: what holds or does not, whatever is allowed of values
+LAWS = (Property.RECIPROCITY, Property.ISOTROPY, Property.POSITIVITY)
 MOST = 4  # tasks at once: what they do between kernels shares one interpreter
 
 
@@ -43,7 +46,8 @@ def run(
     theta_o_deg: Sequence[float] = ANGLES, phi_o_deg: float = 0.0, fixed: Iterable[str] = (),
     against: Model | None = None, points: str = "sobol", samples: int = SAMPLES, seed: int = 0,
     threads: int | None = None, tolerance: float | None = None, effort: float = 1.0,
-    deadline: Deadline | None = None, progress: Progress | None = None,
+    tolerances: Mapping[str, float] = MappingProxyType({}), deadline: Deadline | None = None,
+    progress: Progress | None = None,
 ) -> Report:  # fmt: skip
     """Every check of a model, or those named, for one or several parameter sets.
 
@@ -54,10 +58,11 @@ def run(
     searched over their range, also where `p` is given. against: a model that it must equal.
     points: "sobol", "independent", "stratified" or "lattice". samples: the most that a claim may
     take, 1 to 2^40. seed: 0 to 2^64 - 1. threads: 1 to 1024, None for all processors; no result
-    depends on it. tolerance: in [0, 1), instead of each claim's own. effort: the share, in (0, 1],
-    of the pairs, places and nodes that checks look at: a look in passing, which may miss what a
-    whole one finds. deadline: no claim is begun after it, and what is left is inconclusive.
-    progress: is called with the fraction done.
+    depends on it. tolerance: in [0, 1), instead of each claim's own, but for the laws: reciprocity,
+    isotropy, positivity. tolerances: the same for single checks by name, these too. effort: the
+    share, in (0, 1], of the pairs, places and nodes that checks look at: a look in passing, which
+    may miss what a whole one finds. deadline: no claim is begun after it, and what is left is
+    inconclusive. progress: is called with the fraction done.
 
     Returns a Report with one Result per parameter set and check; an interruption returns what was
     found so far, and says so in `measured`; a check that the model ends by an exception has the
@@ -68,25 +73,40 @@ def run(
     asked = [name for name in checks.names() if name in asked]
     angles = [check_theta(a) for a in theta_o_deg]
     settings = Settings(points, samples, seed, threads, tolerance, effort=effort)
+    allowed = _allowed(settings, chosen("check", [*tolerances], checks.names()), tolerances)
     started = time.perf_counter()
     groups = []
     for one in parameter_sets(model, p):
         variant = model.of(one)
         free = searched(variant, dict.fromkeys(fixed)) if p is None or fixed else ()
-        where = variant, one, angles, phi_o_deg, None, tolerance, free
+        where = variant, one, angles, phi_o_deg, None, None, free
         case = Case(*where, against=against, seed=seed, effort=effort)
-        groups.append([Task(Question(n, case, checks.find(n).claims)) for n in asked])
+        cases = {n: case._replace(tolerance=allowed.get(n)) for n in asked}
+        groups.append([Task(Question(n, c, checks.find(n).claims)) for n, c in cases.items()])
     why, interrupted = "--max-time was over", False
     try:
         perform(groups, settings, deadline or Deadline(), progress)
     except KeyboardInterrupt:
         why, interrupted = "interrupted", True
     told = {"checks": asked, "theta_o_deg": angles, "tolerance": tolerance, **settings.told()}
+    told |= {"tolerances": dict(tolerances)} if tolerances else {}
     results = [task.result(why) for group in groups for task in group]
     _raise_if_nothing_ran(results)
     report = reported("run", told, results, started)
     report.measured["interrupted"] = interrupted
     return report
+
+
+def _allowed(
+    settings: Settings, named: Sequence[str], tolerances: Mapping[str, float]
+) -> dict[str, float]:
+    """The tolerance of each check that has another than its own: a law is not made looser by what
+    is allowed of values."""
+    values = [n for n in checks.names() if checks.find(n).PROPERTY not in LAWS]
+    found = {} if settings.tolerance is None else dict.fromkeys(values, settings.tolerance)
+    for name in named:
+        replace(settings, tolerance=tolerances[name])  # refuses what is no tolerance
+    return {**found, **tolerances}
 
 
 def _raise_if_nothing_ran(results: Sequence[Result]) -> None:
@@ -202,4 +222,6 @@ def _repeat(case: Case, name: str, settings: Settings, finding: Finding) -> str:
     words += ["--phi-o", exactly(case.phi_o_deg)] if case.phi_o_deg else []
     words += settings.options(Settings(samples=SAMPLES))
     words += ["--against", case.against.name] if case.against else []
-    return shlex.join([*words, *settings.tolerance_option()])
+    if case.tolerance is not None:
+        words += ["--tolerance", f"{name}={exactly(case.tolerance)}"]
+    return shlex.join(words)
