@@ -91,7 +91,8 @@ def takes_more(function: Function | None, place: int, count: int) -> bool:
     code = plain(function).__code__
     name = code.co_varnames[place]
     steps = list(dis.get_instructions(code))
-    uses = [k for k, step in enumerate(steps) if mentions(step, name)]
+    pairs = (s.argval if isinstance(s.argval, tuple) else (s.argval,) for s in steps)
+    uses = [k for k, named in enumerate(pairs) if name in named]
     return name in code.co_cellvars or not all(
         steps[k].opname == "LOAD_FAST"
         and steps[k + 1].opname == "LOAD_CONST"
@@ -99,11 +100,6 @@ def takes_more(function: Function | None, place: int, count: int) -> bool:
         and steps[k + 2].opname == "BINARY_SUBSCR"
         for k in uses
     )
-
-
-def mentions(step: dis.Instruction, name: str) -> bool:
-    """Whether an instruction has to do with a local name, alone or with another."""
-    return name in step.argval if isinstance(step.argval, tuple) else step.argval == name
 
 
 def module_functions(module: types.ModuleType, names: Iterator[str]) -> dict[str, Any]:

@@ -6,6 +6,7 @@ million random numbers may never meet.
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from array import array
 from typing import NamedTuple
@@ -103,13 +104,11 @@ def unknown(u: Row, given: Given, p: Prepared) -> float:
 @functools.cache
 def _numbers() -> array[float]:
     """u[0], u[1], u[2] of every cell."""
-    places = [(a, e, j, s) for a in (0, 1) for e in (0, 1) for j in range(ACROSS) for s in SHARES]
-    return array("d", [x for place in places for x in _u(*place)])
-
-
-def _u(axis: int, end: int, j: int, share: float) -> Vec:
-    t, s, third = abs(end - MIDDLE * share), (j + 0.5) / ACROSS, math.modf(0.5 + j * GOLDEN)[0]
-    return (s, t, third) if axis else (t, s, third)
+    numbers = array("d")
+    for axis, end, j, share in itertools.product((0, 1), (0, 1), range(ACROSS), SHARES):
+        t, s = abs(end - MIDDLE * share), (j + 0.5) / ACROSS
+        numbers.extend((*((s, t) if axis else (t, s)), math.modf(0.5 + j * GOLDEN)[0]))
+    return numbers
 
 
 def _mean(rows: list[list[float]]) -> float:

@@ -164,7 +164,9 @@ def template_of(points: str, integrands: Sequence[Integrand], layout: Layout) ->
 
 
 def _names(points: str, integrands: Sequence[Integrand], layout: Layout) -> dict[str, object]:
-    steps, channels, slots = _steps(integrands), len(layout.places), len(integrands)
+    first, *others = {i.steps for i in integrands}
+    steps = () if others else first  # if all want the same of them and no more
+    channels, slots = len(layout.places), len(integrands)
     return {
         "POINTS": _point_set(points, integrands),
         "STEPS": len(steps),
@@ -186,12 +188,6 @@ def _point_set(points: str, integrands: Sequence[Integrand]) -> Function:
         return point_sets.sobol_plane if used > 2 else point_sets.sobol_pair
     found: Function = getattr(point_sets, points)
     return found
-
-
-def _steps(integrands: Sequence[Integrand]) -> Sequence[Function]:
-    """From points to directions, if all integrands want the same of them and no more."""
-    first, *others = {i.steps for i in integrands}
-    return () if others else first
 
 
 def _advances(steps: Sequence[Function]) -> dict[str, Bound]:
