@@ -4,6 +4,7 @@ that a file defines to a Model, what they must be, and choices bound."""
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import functools
 import importlib
 import math
@@ -19,6 +20,7 @@ from typing import Any, NamedTuple
 from montecarlo_brdf import mixture
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.files import know_input
+from montecarlo_brdf.foreign import translation
 from montecarlo_brdf.model import (
     KINKS,
     LOBES,
@@ -33,7 +35,7 @@ from montecarlo_brdf.model import (
 
 Namespace = Mapping[str, Any]
 #: suffixes of languages that no model is written in
-SHADERS = ("glsl", "hlsl", "frag", "comp", "vert", "osl", "wgsl", "metal", "c", "cpp", "h", "cu")
+OTHERS = ("osl", "wgsl", "metal", "c", "cpp", "h", "cu")
 FOLDER = Path(__file__).parent / "models"
 
 
@@ -42,9 +44,14 @@ def names() -> list[str]:
     return sorted(p.stem for p in FOLDER.glob("*.py") if not p.stem.startswith("_"))
 
 
+def is_path(spec: str) -> bool:
+    """Whether a model is asked for by its file: Python, or a shader."""
+    return ".py" in spec or translation.is_shader(spec)
+
+
 def load(spec: str, **picks: str) -> Model:
-    """The model `spec`: a built-in name, `my_brdf.py`, `my_brdf.py:name`, or a weighted sum of
-    them, "0.6 lambert + 0.4 ggx".
+    """The model `spec`: a built-in name, `my_brdf.py`, `my_brdf.py:name`, a shader `my.glsl`, or a
+    weighted sum of them, "0.6 lambert + 0.4 ggx".
 
     spec: one of these. picks: one option per choice the model offers, e.g. norm="n+8".
     Raises UserError for an unknown name or a missing file, ModelError if the file does not load.
@@ -57,6 +64,8 @@ def load(spec: str, **picks: str) -> Model:
     path, _, member = spec.partition(".py:")
     if member:
         namespace = _member(spec, vars(_from_file(Path(path + ".py"))), member)
+    elif translation.is_shader(spec):
+        return _shader(Path(spec), picks)
     elif spec.endswith(".py"):
         namespace = vars(_from_file(Path(spec)))
         if not callable(namespace.get("f")):
@@ -74,9 +83,25 @@ def load(spec: str, **picks: str) -> Model:
 def _no_model(spec: str) -> str:
     """Why a name stands for no model."""
     suffix = Path(spec).suffix
-    if suffix and suffix[1:].isalpha() and (os.path.isfile(spec) or suffix[1:] in SHADERS):
-        return f"{spec} is no Python file: a model is one, with a function f(wo, wi, p)"
-    return unknown("model", spec, names()) + ", or give the path of a .py file"
+    if suffix and suffix[1:].isalpha() and (os.path.isfile(spec) or suffix[1:] in OTHERS):
+        return f"{spec} is neither a Python file, with a function f(wo, wi, p), nor a shader"
+    return unknown("model", spec, names()) + ", or give the path of a .py file or of a shader"
+
+
+def _shader(path: Path, picks: Mapping[str, str]) -> Model:
+    """A model in a shading language, with its single precision beside it."""
+    if not os.path.isfile(path):
+        raise UserError(f"no model file {path}")
+    found = translation.translated(path)
+    model = build(str(path), vars(translation.module(path, found.double)))
+    if found.single:
+        model = dataclasses.replace(model, single=functools.partial(_single, path, found.single))
+    return model.variant(**picks) if picks else model
+
+
+def _single(path: Path, text: str) -> Model:
+    """The same rounded as a shader is."""
+    return build(str(path), vars(translation.module(path, text)))
 
 
 def _from_file(path: Path) -> types.ModuleType:
@@ -219,7 +244,13 @@ def _width(function: Callable[[Any], Any], p: Any) -> float:
 def _is_parameters(value: Any) -> bool:
     defaults = getattr(value, "_field_defaults", None)
     named = isinstance(value, type) and issubclass(value, tuple) and defaults is not None
-    return named and all(isinstance(v, (int, float)) for v in (defaults or {}).values())
+    return named and all(map(_is_default, (defaults or {}).values()))
+
+
+def _is_default(value: Any) -> bool:
+    """A number, or a colour's."""
+    values = value if isinstance(value, tuple) else (value,)
+    return all(isinstance(v, (int, float)) for v in values)
 
 
 DICTIONARY = Rule(_is(Mapping), "a dictionary, not {!r}", dict)

@@ -112,6 +112,7 @@ class Model:
     picks: Mapping[str, str] = field(default_factory=dict)
     labels: Mapping[str, str] = field(default_factory=dict)  # field -> name, where they differ
     terms: tuple[Term, ...] = ()  # of a mixture
+    single: Callable[[], Model] | None = field(default=None, repr=False)  # of a shader: in float32
     namespace: Mapping[str, Any] = field(default_factory=dict, repr=False)
     rebuild: Callable[[Mapping[str, str]], Model] | None = field(default=None, repr=False)
 
@@ -158,7 +159,7 @@ class Model:
         missing = [n for n in names if n not in checked and n not in defaults]
         if missing:
             raise UserError(f"model {self.name} needs a value for {', '.join(missing)}")
-        floats = {n: float(v) for n, v in defaults.items()}
+        floats = {n: _floats(v) for n, v in defaults.items()}
         values = {**floats, **checked}
         return model.Params._make(values[n] for n in names)
 
@@ -191,6 +192,10 @@ class Model:
             sentence = f"{name} of model {self.name} must be {allowed}, not {value!r}"
             raise UserError(sentence, about=name)
         return number
+
+
+def _floats(value: Any) -> Any:
+    return tuple(map(float, value)) if isinstance(value, tuple) else float(value)
 
 
 def parameter_type(

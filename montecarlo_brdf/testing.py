@@ -178,7 +178,7 @@ def require(report: Report, inconclusive: str = Policy.FAIL, reproducible: bool 
 
 def _loadable(model: Model) -> bool:
     """Whether a command line can name the model."""
-    return model.built_in or bool(model.terms) or ".py" in model.name
+    return model.built_in or bool(model.terms) or loading.is_path(model.name)
 
 
 def as_model(brdf: object, p: Parameters = None) -> Model:

@@ -19,7 +19,7 @@ FLOW = (
     ("compile", "statistics"),
     ("arithmetic",),
     ("sampling",),
-    ("counterpart", "loading", "mixture", "model", "models"),
+    ("counterpart", "foreign", "loading", "mixture", "model", "models"),
     ("estimate",),
     ("cases",),
     ("judge",),

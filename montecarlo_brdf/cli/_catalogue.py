@@ -52,12 +52,17 @@ def ranges(model: Model) -> list[str]:
     defaults = model.Params._field_defaults  # type: ignore[attr-defined]
     found = []
     for name in model.Params._fields:  # type: ignore[attr-defined]
-        text = f"{name}={defaults[name]:g}" if name in defaults else name
+        text = f"{name}={_shown(defaults[name])}" if name in defaults else name
         if name in model.domain:
             low, high = model.domain[name]
             text += f" in [{low:g}, {high:g}]"
         found.append(text)
     return found
+
+
+def _shown(default: Any) -> str:
+    """0.8, or a colour as -p takes it."""
+    return "/".join(f"{v:g}" for v in (default if isinstance(default, tuple) else [default]))
 
 
 def options(model: Model) -> list[str]:

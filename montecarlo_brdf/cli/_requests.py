@@ -267,7 +267,7 @@ def _spec(table: Table, key: str) -> str:
     """A model's name, or its path, which starts at the file's folder."""
     spec = table.text_of(key)
     folder = table.file.parent
-    if ".py" in spec and not Path(spec).is_absolute() and folder != Path():
+    if loading.is_path(spec) and not Path(spec).is_absolute() and folder != Path():
         return os.path.relpath(folder / spec)
     return spec
 

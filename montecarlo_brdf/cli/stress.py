@@ -26,7 +26,7 @@ Examples:
 
 @click.command("stress", epilog=EPILOG, short_help="Which digits survive in which precision.")
 @_options.model(
-    help="A built-in model, a specimen, my_brdf.py, or my_brdf.py:name. [--model ggx]"
+    help="A built-in model, a specimen, my_brdf.py, my_brdf.py:name, or a shader. [--model ggx]"
 )
 @click.option("--compare", nargs=2, metavar="A B",
               help="Two models side by side. [--compare textbook_ggx ggx]")  # fmt: skip

@@ -28,7 +28,7 @@ def refused(outcome: Outcome, code: int, *said: str) -> None:
 MISTAKES = {
     "furnace --model lamber": ("'lamber'", "did you mean 'lambert'?", "choose from", "ggx", ".py"),
     "furnace --model 'my brdf.py'": ("no model file my brdf.py",),
-    "show my.glsl": ("my.glsl is no Python file: a model is one, with a function f(wo, wi, p)",),
+    "show my.metal": ("my.metal is neither a Python file, with a function f(wo, wi, p), nor a",),
     "converge --model lambert --points all,sobol": ("'all' stands alone, for every point set",),
     "run --model lambert --config x.toml": ("give --model or --config, not both",),
     "furnace --model zzz": ("no model 'zzz'", "lambert_unnormalised", "path of a .py file"),

@@ -23,8 +23,7 @@ def load(spec: str) -> Model:
     if spec in names():
         return loading.build(spec, vars(importlib.import_module(f"{__name__}.{spec}")))
     known = loading.names()
-    if spec not in known and not any(mark in spec for mark in (".py", "+")):
-        raise UserError(
-            unknown("model", spec, [*known, *names()]) + ", or give the path of a .py file"
-        )
+    if spec not in known and not (loading.is_path(spec) or "+" in spec):
+        either = ", or give the path of a .py file or of a shader"
+        raise UserError(unknown("model", spec, [*known, *names()]) + either)
     return loading.load(spec)

@@ -1,0 +1,38 @@
+"""What of a shader's text is code, and what of the code stands outside of functions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+NOT_CODE = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
+
+
+def bare(text: str) -> str:
+    """The text with blanks for comments, every character at its place."""
+    return NOT_CODE.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
+
+
+def depths(text: str) -> list[int]:
+    """How many braces are open at each character."""
+    found, depth = list[int](), 0
+    for character in text:
+        depth -= character == "}"
+        found.append(depth)
+        depth += character == "{"
+    return found
+
+
+def rewritten(
+    text: str, pattern: re.Pattern[str], change: Callable[[re.Match[str]], str]
+) -> str:
+    """The text with matches outside of functions and structs changed, and its lines kept."""
+    known = depths(text)
+
+    def changed(match: re.Match[str]) -> str:
+        if known[match.start()]:
+            return match[0]
+        new = change(match)
+        return new + "\n" * (match[0].count("\n") - new.count("\n"))
+
+    return pattern.sub(changed, text)

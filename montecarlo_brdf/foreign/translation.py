@@ -1,0 +1,118 @@
+"""A shader as the namespace of a model file: its translation is kept by the content of all that it
+was made of, and made in a process of its own."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import hashlib
+import json
+import signal
+import subprocess
+import sys
+import types
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from montecarlo_brdf.compile import cache
+from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.files import know_input
+from montecarlo_brdf.foreign import wheel
+from montecarlo_brdf.foreign.complaint import Complaint
+
+#: how files of shaders end
+SUFFIXES = (".glsl", ".frag", ".comp", ".vert", ".fs", ".hlsl", ".hlsli", ".slang", ".brdf")
+PATIENCE = 180.0  # seconds for everything
+
+
+class Translation(NamedTuple):
+    """The text of a model file in double precision, and in the shader's own if that is single."""
+
+    double: str
+    single: str
+
+
+def is_shader(spec: str) -> bool:
+    """Whether a model is asked for by the path of a shader."""
+    return spec.endswith(SUFFIXES)
+
+
+def module(path: Path, text: str) -> types.ModuleType:
+    """The module that a translation's text makes."""
+    made = types.ModuleType(path.stem)
+    made.__file__ = f"{path} (translated)"
+    exec(compile(text, made.__file__, "exec"), vars(made))  # noqa: S102
+    return made
+
+
+def translated(path: Path) -> Translation:
+    """The translation of a shader. Raises ModelError with one sentence."""
+    name = _name(path)
+    kept = cache.read(name)
+    known = json.loads(kept) if kept else None
+    if known is None or not _is_current(known["files"]):
+        known = _asked(path)
+        cache.write(name, json.dumps(known).encode())
+    for file in known["files"]:
+        know_input(Path(file))
+    return Translation(known["double"], known["single"])
+
+
+def _name(path: Path) -> str:
+    """What a translation is kept under."""
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise ModelError(f"cannot read {path}: {error.strerror or error}") from error
+    parts = (str(path.resolve()).encode(), content, wheel.release().encode(), _translator())
+    whole = hashlib.blake2b(digest_size=16)
+    for part in parts:
+        whole.update(len(part).to_bytes(8, "little") + part)
+    return f"shader-{whole.hexdigest()}"
+
+
+@functools.cache
+def _translator() -> bytes:
+    """The content of our own translator."""
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    return hashlib.blake2b(b"".join(p.read_bytes() for p in files)).digest()
+
+
+def _is_current(files: dict[str, str]) -> bool:
+    """Whether all files are as they were read."""
+    try:
+        found = {p: hashlib.sha256(Path(p).read_bytes()).hexdigest() for p in files}
+    except OSError:
+        return False
+    return found == files
+
+
+def _asked(path: Path) -> dict[str, Any]:
+    """The answer of a process of its own."""
+    if wheel.folder() is None:
+        needed = f"it needs the package {wheel.PACKAGE}: pip install '{wheel.EXTRA}'"
+        raise ModelError(Complaint(needed).told(str(path)))
+    command = [sys.executable, "-m", "montecarlo_brdf.foreign.translate"]
+    request = json.dumps({"path": str(path)})
+    try:
+        done = subprocess.run(
+            command, input=request, capture_output=True, timeout=PATIENCE, encoding="utf-8"
+        )
+    except subprocess.TimeoutExpired:
+        raise ModelError(f"{path}: its compiler did not return within {PATIENCE:g} s") from None
+    lines = done.stdout.splitlines()
+    answer = json.loads(lines[-1]) if lines and lines[-1].startswith("{") else None
+    if answer is None:
+        raise ModelError(f"{path}: {_ended(done.returncode, done.stderr)}")
+    if "error" in answer:
+        raise ModelError(answer["error"])
+    return dict(answer)
+
+
+def _ended(code: int, told: str) -> str:
+    """In words, how a process ended that gave no answer."""
+    if code < 0:
+        with contextlib.suppress(ValueError):
+            return f"its compiler crashed with {signal.Signals(-code).name}"
+    last = told.strip().splitlines()[-1:] or [f"exit code {code}"]
+    return f"its translation failed: {last[0][:200]}"
