@@ -249,8 +249,11 @@ def _is_parameters(value: Any) -> bool:
 
 def _is_default(value: Any) -> bool:
     """A number, or a colour's."""
-    values = value if isinstance(value, tuple) else (value,)
-    return all(isinstance(v, (int, float)) for v in values)
+    return all(isinstance(v, (int, float)) for v in _values(value))
+
+
+def _values(default: Any) -> tuple[Any, ...]:
+    return default if isinstance(default, tuple) else (default,)
 
 
 DICTIONARY = Rule(_is(Mapping), "a dictionary, not {!r}", dict)
@@ -421,9 +424,9 @@ def _check_names(name: str, given: Mapping[str, Any], parameters: tuple[str, ...
 
 
 def _check_defaults(name: str, params: type[ParameterSet], domain: Mapping[str, Any]) -> None:
-    for parameter, value in params._field_defaults.items():
+    for parameter, default in params._field_defaults.items():
         low, high = domain.get(parameter, (-math.inf, math.inf))
-        if not low <= value <= high:
+        for value in (v for v in _values(default) if not low <= v <= high):
             outside = f"{parameter}={value:g} of model {name} lies outside its domain"
             raise ModelError(f"the default {outside} [{low:g}, {high:g}]")
 

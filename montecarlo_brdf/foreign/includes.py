@@ -29,10 +29,10 @@ class Includes:
         try:
             content = path.read_bytes()
         except OSError as error:
-            raise Complaint(f"cannot read {path}: {error.strerror or error}") from error
+            raise Complaint(f"cannot read {path}: {error.strerror}", placed=True) from error
         self.read[path.resolve()] = content
         if b"\0" in content:
-            raise Complaint(f"{path} is no text: it has null bytes")
+            raise Complaint(f"{path} is no text: it has null bytes", placed=True)
         try:
             return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
         except UnicodeDecodeError:
