@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from montecarlo_brdf.cases.case import Parameters, pointwise
@@ -14,27 +14,29 @@ from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, Reference
 from montecarlo_brdf.model import Model, Term
 from montecarlo_brdf.statistics import Estimate
 from montecarlo_brdf.truth import true_albedo
-from montecarlo_brdf.vectors import Vec, from_degrees
+from montecarlo_brdf.vectors import Vec, from_degrees, mirrored
 
 if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array
-    from montecarlo_brdf.estimate.quadrature import Coordinates, Probes
+    from montecarlo_brdf.estimate.quadrature import Integral, Probes
 
 #: numbers from which lobe coordinates learn the width of a sampler's lobe
 PILOT = 4096
 PROBES = 2048  # of these
 ROUNDING = 4.0 * 2.0**-52
+SOURCE = "adaptive quadrature"
 RESOLVED = 0.25  # of a tolerance: what the error of a quadrature may take of it to judge by
-QUOTABLE = 1e-5  # relative error from which a quadrature is an estimator beside those that sample
-RETRO = 2.0  # times f at the mirror direction, from which a lobe is sought at wo itself
-SHARPEST = 1e-5  # slope of the sharpest lobe that a model without a sampler may have
+QUOTABLE = RESOLVED * AGREEMENT_TOLERANCE  # relative error of a quadrature that is an estimator
+TARGET = 0.1 * QUOTABLE  # where f is smooth, errors fall fast
 
 
 def albedo(
-    model: Model, one: Parameters, theta_deg: float, phi_deg: float = 0.0
+    model: Model, one: Parameters, theta_deg: float, phi_deg: float = 0.0, seed: int = 0
 ) -> Reference | None:
-    """A(wo) as it should be; None if nothing can tell."""
-    return independent(model, one, theta_deg, phi_deg) or same_f(model, one, theta_deg, phi_deg)
+    """A(wo) as it should be; None if nothing can tell. seed: of the quadrature, where there is no
+    other reference."""
+    known = independent(model, one, theta_deg, phi_deg)
+    return known or same_f(model, one, theta_deg, phi_deg, seed)
 
 
 def independent(
@@ -68,56 +70,73 @@ def _declared(model: Model, one: Parameters, mu: float) -> Reference:
 
 
 def same_f(
-    model: Model, one: Parameters, theta_deg: float, phi_deg: float = 0.0
+    model: Model, one: Parameters, theta_deg: float, phi_deg: float = 0.0, seed: int = 0
 ) -> Reference | None:
-    """A(wo) by deterministic quadrature of f: it can refute samplers and estimators, not f itself.
+    """A(wo) by a quadrature of f: it can refute samplers and estimators, not f itself.
 
-    None where the quadrature does not resolve f well enough to judge anything by.
+    None where the quadrature does not resolve f well enough to judge anything by. Another seed
+    gives another quadrature.
     """
-    value, error = quadrature(model, one, from_degrees(theta_deg, phi_deg))
-    if not error <= RESOLVED * AGREEMENT_TOLERANCE * abs(value):
+    found = quadrature(model, one, from_degrees(theta_deg, phi_deg), seed=seed)
+    return as_reference(found, AGREEMENT_TOLERANCE)
+
+
+def as_reference(found: Integral, tolerance: float) -> Reference | None:
+    """What a quadrature found, if it is sharp enough for a relative tolerance."""
+    if not found.error <= RESOLVED * tolerance * abs(found.value):
         return None
-    return Reference(value, error, Kind.SAME_F, "lobe coordinates")
+    return Reference(found.value, found.error, Kind.SAME_F, SOURCE)
 
 
 @functools.lru_cache(maxsize=1024)
 def quadrature(
-    model: Model, one: Parameters, fixed: Vec, reverse: bool = False
-) -> tuple[float, float]:
-    """(A(wo) or, reversed, R(wi); error) in coordinates that follow the lobe."""
+    model: Model, one: Parameters, fixed: Vec, reverse: bool = False, seed: int = 0
+) -> Integral:
+    """A(wo) or, reversed, R(wi)."""
     import numpy as np
-
-    from montecarlo_brdf.estimate.quadrature import integrate
 
     w = np.array(fixed)
     f = pointwise(model, one).f
     values = (lambda v: f(v, w)) if reverse else (lambda v: f(w, v))
-    found = integrate(
-        lambda v: values(v) * v[:, 2],
-        coordinates(model, one, w),
-        probes=probes(model, one, w, reverse),
+    return integral(
+        lambda v: values(v) * v[:, 2], fixed, probes(model, one, fixed, reverse, seed), seed
     )
-    return found.value, found.error
+
+
+def integral(
+    function: Callable[[Array], Array], wo: Vec, seen: Sequence[Probes], seed: int
+) -> Integral:
+    """int function(w) dw over the hemisphere, in half vectors with wo."""
+    from montecarlo_brdf.estimate.quadrature import integrate
+    from montecarlo_brdf.estimate.regions import Coordinates
+
+    return integrate(function, Coordinates(wo), TARGET, seen, seed)
 
 
 def probes(
-    model: Model, one: Parameters, fixed: Array, reverse: bool = False
+    model: Model, one: Parameters, fixed: Vec, reverse: bool = False, seed: int = 0
 ) -> tuple[Probes, ...]:
-    """Directions that may see what a quadrature misses: cosine-weighted, and the model's own."""
-    return (_cosine_probes(), *(() if reverse else own_probes(model, one, fixed)))
+    """Directions that see what nodes do not: cosine-weighted, the model's own draws, and such as
+    come ever nearer to the mirror direction and to the direction itself."""
+    from montecarlo_brdf.estimate.quadrature import star
+
+    own = () if reverse else own_probes(model, one, fixed, seed)
+    return _cosine_probes(seed), star(mirrored(fixed)), star(fixed), *own
 
 
-@functools.cache
-def _cosine_probes() -> Probes:
+@functools.lru_cache(maxsize=4)
+def _cosine_probes(seed: int) -> Probes:
     import numpy as np
 
-    u = _pilot()[:PROBES]
+    u = _pilot(seed)[:PROBES]
     r, phi = np.sqrt(u[:, 0]), 2.0 * np.pi * u[:, 1]
     wi = np.stack([r * np.cos(phi), r * np.sin(phi), np.sqrt(1.0 - u[:, 0])], axis=-1)
     return wi, np.pi / (PROBES * wi[:, 2])
 
 
-def own_probes(model: Model, one: Parameters, fixed: Sequence[float] | Array) -> tuple[Probes, ...]:
+def own_probes(
+    model: Model, one: Parameters, fixed: Sequence[float] | Array, seed: int = 0
+) -> tuple[Probes, ...]:
     """Draws of the model's sampler, and the solid angle that each stands for; none without one.
 
     Draws that are no unit vectors lie nowhere.
@@ -126,78 +145,49 @@ def own_probes(model: Model, one: Parameters, fixed: Sequence[float] | Array) ->
 
     if not (model.sample and model.pdf):
         return ()
-    drawn = _pilot_draws(model, one, tuple(map(float, fixed)))[1]
+    drawn = _pilot_draws(model, one, tuple(map(float, fixed)), seed)[1]
     density = pointwise(model, one).pdf(np.array(fixed), drawn)
     unit = np.abs(np.sum(drawn * drawn, axis=1) - 1.0) < 1e-3
     known = np.isfinite(density) & (density > 0.0) & unit
     return ((drawn[known], 1.0 / (PROBES * density[known])),)
 
 
-def coordinates(model: Model, one: Parameters, wo: Array) -> Coordinates:
-    """Coordinates that follow the lobe, at the mirror direction or, where f is larger, at wo."""
-    from montecarlo_brdf.cases.directions import MIRROR
-    from montecarlo_brdf.estimate.quadrature import Coordinates
-
-    mirror, f = wo * MIRROR, pointwise(model, one).f
-    if model.sample is None and f(wo, wo)[0] > RETRO * f(wo, mirror)[0]:
-        return Coordinates(mirror, _probed_scale(model, one, wo, mirror))
-    return Coordinates(wo, lobe_scale(model, one, wo))
-
-
 def deterministic(
     model: Model, one: Parameters, fixed: Vec, seed: int = 0, *, reverse: bool = False
 ) -> Measurement:
-    """The same as an estimator beside those that sample; the seed changes nothing."""
-    value, error = quadrature(model, one, fixed, reverse)
+    """The same as an estimator beside those that sample: every seed gives another quadrature than
+    that of the reference."""
+    value, error, _ = quadrature(model, one, fixed, reverse, 1 + seed)
     e = Estimate(value, error, 0, (value, value), value * value, value)
     unfit = None if error <= QUOTABLE * abs(value) else f"the quadrature resolves only {error:.0e}"
     return Measurement("quadrature", e, unfit, error)
 
 
 def lobe_scale(model: Model, one: Parameters, wo: Array) -> float:
-    """The smallest slope of interest: from the model's own draws, else from values of f."""
+    """The smallest slope of interest, from the model's own draws."""
     from montecarlo_brdf.estimate.quadrature import scale_of
 
-    if model.sample is None:
-        return _probed_scale(model, one, wo, wo)
     return scale_of(wo, _pilot_draws(model, one, tuple(map(float, wo)))[0])
 
 
 @functools.lru_cache(maxsize=8)
-def _pilot_draws(model: Model, one: Parameters, wo: Vec) -> tuple[Array, Array]:
+def _pilot_draws(
+    model: Model, one: Parameters, wo: Vec, seed: int = 0
+) -> tuple[Array, Array]:
     """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first
     PROBES."""
     import numpy as np
 
-    drawn, _ = pointwise(model, one).sample(np.array(wo), _pilot())
+    drawn, _ = pointwise(model, one).sample(np.array(wo), _pilot(seed))
     above = np.isfinite(drawn).all(axis=1) & (drawn[:, 2] > 0.0)
     return drawn[above], drawn[:PROBES][above[:PROBES]]
 
 
-@functools.cache
-def _pilot() -> Array:
+@functools.lru_cache(maxsize=4)
+def _pilot(seed: int) -> Array:
     import numpy as np
 
-    return np.random.default_rng(PILOT).random((PILOT, 3))
-
-
-def _probed_scale(model: Model, one: Parameters, wo: Array, centre: Array) -> float:
-    """The slope within which f cos has a tenth of its weight, from two lines through the mirror
-    direction of `centre`: what draws would tell if there were a sampler."""
-    import numpy as np
-
-    from montecarlo_brdf.estimate.quadrature import Coordinates
-
-    finest = Coordinates(centre, SHARPEST)
-    x, b = (g.ravel() for g in np.meshgrid((np.arange(96) + 0.5) / 96, (0.2, 0.7), indexing="ij"))
-    wi, jacobian = finest.directions(x, b)
-    weight = np.abs(pointwise(model, one).f(wo, wi)) * wi[:, 2] * jacobian
-    share = np.cumsum(np.where(np.isfinite(weight), weight, 0.0))
-    if not share[-1] > 0.0:
-        return 1.0
-    k = int(np.searchsorted(share, 0.1 * share[-1]))
-    h = wi[k] + centre
-    return float(max(0.3 * np.hypot(h[0], h[1]) / h[2], SHARPEST))
+    return np.random.default_rng([PILOT, seed]).random((PILOT, 3))
 
 
 def _weight(p: Parameters, term: Term) -> float:

@@ -92,25 +92,14 @@ def _places(case: Case) -> Iterator[tuple[Case, float, dict[str, Any]]]:
             yield other, theta, parameters.where(other, theta)
 
 
-def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measurement] | None:
-    """Draws that follow the lobe, where the model has no sampler that does."""
-    if Sampler.OWN in samplers_of(case.model):
-        return None
-    place = case.one, case.wo(theta), either_sky, WHICH[name]
-    return functools.partial(_slopes.radiance, case.model, *place)
-
-
-def _expected(case: Case, theta: float, sky: Callable[[Any], float]) -> Reference | None:
-    wo, functions = np.array(case.wo(theta)), pointwise(case.model, case.one)
+def _expected(case: Case, theta: float, sky: Callable[[Any], float], seed: int) -> Integral:
+    wo, f = case.wo(theta), pointwise(case.model, case.one).f
+    fixed = np.array(wo)
 
     def lit(wi: Array) -> Array:
-        return functions.f(wo, wi) * wi[:, 2] * sky(wi.T)
+        return f(fixed, wi) * wi[:, 2] * sky(wi.T)
 
-    seen = _truth.probes(case.model, case.one, wo)
-    found = integrate(lit, _truth.coordinates(case.model, case.one, wo), probes=seen)
-    if not found.error <= _truth.RESOLVED * TOLERANCE * abs(found.value):
-        return None
-    return Reference(found.value, found.error, Kind.SAME_F, "lobe coordinates")
+    return _truth.integral(lit, wo, _truth.probes(case.model, case.one, wo, seed=seed), seed)
 
 
 def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measurement]:

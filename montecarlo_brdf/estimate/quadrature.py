@@ -1,83 +1,327 @@
-"""Deterministic integrals over the hemisphere, in coordinates that follow a lobe (sampling.slopes):
-nodes grow until two grids agree, and probes tell what both may have missed."""
+"""Integrals over regions of directions: cells cut where they are rough, with an error measured.
+
+A chart makes a square of the region. The square is cut into cells; in each the integrand is the
+polynomial through Gauss's nodes. Cells are cut where two rules differ, and where probes, directions
+at which f or a sky may be bright, have another value than the polynomial: so peaks are found, of
+any width and wherever they are. What the polynomials leave is estimated by points at random in
+every cell, without bias: the error is an interval of Student's t, not a bound that is guessed.
+"""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
-from typing import Any, NamedTuple
+import math
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from montecarlo_brdf.compile.bind import Ints, Out, Reals
-from montecarlo_brdf.compile.kernel import kernel
-from montecarlo_brdf.sampling.slopes import coordinates, direction
+from montecarlo_brdf import student
+from montecarlo_brdf.estimate.regions import Chart, Coordinates as Coordinates
+from montecarlo_brdf.vectors import tangent_frame
 
 Array = NDArray[np.float64]
-SMALLEST = 1e-7
-#: A value so many times as large as any at the nodes around it belongs to what they have missed.
-MISSED = 10.0
-#: directions and the solid angle that each stands for
-Probes = tuple[Array, Array]
+Flags = NDArray[np.bool_]
+Places = NDArray[np.int64]
 #: numbers (n,) of directions (n, 3)
 OfArray = Callable[[Array], Array]
+#: directions, and the solid angle that each stands for
+Probes = tuple[Array, Array]
 
-
-def directions_at(ints: Ints, reals: Reals, out: Out) -> None:
-    """out[4 j ...] = direction and area of the j-th (x, b); ints = (n,), reals = (wo, scale, all
-    (x, b))."""
-    wo, scale = (reals[0], reals[1], reals[2]), reals[3]
-    for j in range(ints[0]):
-        x, b = reals[4 + 2 * j], reals[5 + 2 * j]
-        out[4 * j], out[4 * j + 1], out[4 * j + 2], out[4 * j + 3] = direction(x, b, wo, scale)
-
-
-def coordinates_at(ints: Ints, reals: Reals, out: Out) -> None:
-    """out[2 j ...] = (x, b) of the j-th direction."""
-    wo, scale = (reals[0], reals[1], reals[2]), reals[3]
-    for j in range(ints[0]):
-        at = 4 + 3 * j
-        w = (reals[at], reals[at + 1], reals[at + 2])
-        out[2 * j], out[2 * j + 1] = coordinates(w, wo, scale)
-
-
-class Coordinates:
-    """The map between (x, b) and wi for a fixed wo; `scale` is the smallest slope of interest."""
-
-    def __init__(self, wo: Array, scale: float) -> None:
-        self.wo = np.asarray(wo, dtype=float)
-        self.scale = max(float(scale), SMALLEST)
-
-    @property
-    def place(self) -> tuple[float, ...]:
-        """What compiled code knows of them."""
-        return (*map(float, self.wo), self.scale)
-
-    def directions(self, x: Array, b: Array) -> tuple[Array, Array]:
-        """(wi, dw/dx db) for coordinates in (0, 1): wi has shape (n, 3)."""
-        out = self._map(directions_at, np.stack([x, b], axis=-1), 4)
-        return out[:, :3], out[:, 3]
-
-    def coordinates(self, wi: Array) -> tuple[Array, Array]:
-        """(x, b) of directions (n, 3) above the horizon."""
-        out = self._map(coordinates_at, np.asarray(wi), 2)
-        return np.clip(out[:, 0], 0.0, 1.0), np.mod(out[:, 1], 1.0)
-
-    def _map(self, template: Callable[[Any, Any, Any], None], rows: Array, width: int) -> Array:
-        out = np.empty((len(rows), width))
-        reals = np.concatenate([self.place, rows.ravel()])
-        kernel("", template).on([len(rows)], reals, out)
-        return out
+TAIL = 2  # coefficients of the highest degrees, which tell along which side a cell is rough
+ALIKE = 4.0  # sides are both cut where one is rougher than the other by less
+CUT = (0.1, 1e-3)  # of the error allowed: up to that rules must agree, at first and at last
+ROUGHER = 10.0  # of it: what is left where no polynomial fits, and points alone decide
+FASTEST = 1.5  # the error of an integrand with steps falls like that power of strata
+MOST_CELLS = 3000
+MOST_POINTS = 1 << 22
+BATCH = 1 << 16  # values in one call
+REPLICATES, FEWEST = 32, 8
+SURELY = 1e-9  # chance that the truth lies farther away than the error
+LAST = 1.0 - 2.0**-50  # a coordinate that is still within the region
+ROUNDING = 1e-14
+RINGS, SPOKES = 0.5 ** np.arange(1.0, 21.0), np.arange(8) * (np.pi / 4.0) + 0.2
 
 
 class Integral(NamedTuple):
-    """A deterministic integral with an error estimate, and what of that lies where probes alone saw
-    it."""
+    """An integral, how far it is from the truth at most, and what of that probes alone saw."""
 
     value: float
     error: float
     missed: float = 0.0
+
+
+def integrate(
+    function: OfArray,
+    chart: Chart,
+    target: float = 2.5e-6,
+    probes: Sequence[Probes] = (),
+    seed: int = 0,
+) -> Integral:
+    """Integral of function(wi) over a region, to a relative error of `target` where that can be.
+
+    seed: another one moves all cells, nodes and points. What probes say that cells do not hold is
+    part of the error.
+    """
+    rng = np.random.default_rng(seed)
+    with np.errstate(all="ignore"):
+        mesh = Mesh(Square(function, chart), probes, rng if seed else None)
+        rest, error = mesh.estimated(rng, target)
+    value = mesh.value + rest
+    if not math.isfinite(value):
+        return Integral(value, math.inf)
+    return Integral(value, max(error, mesh.missed) + ROUNDING * mesh.magnitude, mesh.missed)
+
+
+class Square:
+    """The integrand on the unit square of a chart, whose x is stretched towards the end of the
+    region: f or a density may be singular there."""
+
+    def __init__(self, function: OfArray, chart: Chart) -> None:
+        self._function, self.chart = function, chart
+
+    def both(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """The integrand per dx dy, and the solid angle."""
+        rest = 1.0 - x
+        wi, area = self.chart.directions(np.minimum(1.0 - rest * rest, LAST), y)
+        area = 2.0 * rest * area
+        return self._function(wi) * area, area
+
+    def coordinates(self, wi: Array) -> Array:
+        """(x, y) of directions, (n, 2)."""
+        x, y = self.chart.coordinates(wi)
+        return np.stack([1.0 - np.sqrt(1.0 - x), y], axis=1)
+
+    def edges(self, rng: np.random.Generator | None) -> tuple[Array, Array]:
+        """Of the first cells."""
+        x, y = self.chart.edges
+        x = 1.0 - np.sqrt(1.0 - x)
+        return (_moved(x, rng), _moved(y, rng)) if rng and self.chart.movable else (x, y)
+
+
+def _moved(edges: Array, rng: np.random.Generator) -> Array:
+    """The edges, the inner ones at random up to half way to their neighbours."""
+    room = 0.5 * np.minimum(edges[1:-1] - edges[:-2], edges[2:] - edges[1:-1])
+    inner = edges[1:-1] + room * (2.0 * rng.random(len(room)) - 1.0)
+    return np.concatenate([edges[:1], inner, edges[-1:]])
+
+
+class Rule(NamedTuple):
+    """Gauss-Legendre on the unit square: nodes (n n, 2), weights, and the matrix from values along
+    a side to coefficients of Legendre's polynomials."""
+
+    nodes: Array
+    weight: Array
+    coefficients: Array
+
+
+@functools.cache
+def _rule(n: int) -> Rule:
+    node, weight = np.polynomial.legendre.leggauss(n)
+    x, y = (0.5 * (g.ravel() + 1.0) for g in np.meshgrid(node, node, indexing="ij"))
+    made = np.linalg.inv(np.polynomial.legendre.legvander(node, n - 1))
+    return Rule(np.stack([x, y], axis=1), 0.25 * np.outer(weight, weight).ravel(), made)
+
+
+class Cells(NamedTuple):
+    """Rows of cells: where they begin and end, their integrals by two rules, and their polynomials:
+    coefficients of Legendre's, (n, fine, fine)."""
+
+    low: Array
+    size: Array
+    fine: Array
+    coarse: Array
+    polynomial: Array
+
+    def part(self, which: Flags) -> Cells:
+        """Some of them."""
+        return Cells(*(column[which] for column in self))
+
+    def joined(self, others: Cells) -> Cells:
+        """All of both."""
+        return Cells(*(np.concatenate(pair) for pair in zip(self, others, strict=True)))
+
+    def at(self, places: Array, cell: Places) -> Array:
+        """The polynomials at places (m, 2), each in the cell given."""
+        n = self.polynomial.shape[1]
+        inside = 2.0 * (places - self.low[cell]) / self.size[cell] - 1.0
+        x, y = (np.polynomial.legendre.legvander(side, n - 1) for side in inside.T)
+        found: Array = np.einsum("mi,mij,mj->m", x, self.polynomial[cell], y, optimize=True)
+        return found
+
+    @property
+    def tails(self) -> Array:
+        """(n, 2): what the highest degrees along either side make of the polynomials at most."""
+        size = np.abs(self.polynomial)
+        along = size[:, -TAIL:, :].sum(axis=(1, 2)), size[:, :, -TAIL:].sum(axis=(1, 2))
+        return np.stack(along, axis=1)
+
+
+class Mesh:
+    """The cells of a square and the probes in them."""
+
+    def __init__(
+        self, square: Square, probes: Sequence[Probes], rng: np.random.Generator | None
+    ) -> None:
+        self._square = square
+        x, y = square.edges(rng)
+        self._cells = self._measured(_products(x[:-1], y[:-1]), _products(np.diff(x), np.diff(y)))
+        wi = np.concatenate([np.zeros((0, 3)), *(wi for wi, _ in probes)])
+        angle = np.concatenate([np.zeros(0), *(angle for _, angle in probes)])
+        at = square.coordinates(wi)
+        inside = ((at >= 0.0) & (at <= 1.0)).all(axis=1)
+        self._at = at[inside]
+        self._home = _place(x, self._at[:, 0]) * (len(y) - 1) + _place(y, self._at[:, 1])
+        self._seen, area = square.both(*self._at.T)
+        self._share = np.where(area > 0.0, angle[inside] / area, 0.0)
+        self._beside = self._differences(np.ones(len(self._at), dtype=bool))
+
+    @property
+    def _tails(self) -> Array:
+        """How rough the polynomials are."""
+        found: Array = self._cells.tails.sum(axis=1)
+        return found
+
+    @property
+    def value(self) -> float:
+        """The integral by the finer rule."""
+        return float(self._cells.fine.sum())
+
+    @property
+    def magnitude(self) -> float:
+        """And of its absolute value, about."""
+        return float(np.abs(self._cells.fine).sum())
+
+    @property
+    def missed(self) -> float:
+        """The integral that probes say to lie beside the polynomials."""
+        return float(self._beside.sum())
+
+    def refine(self, target: float) -> None:
+        """Cut cells until rules and probes agree."""
+        while len(self._cells.fine) < MOST_CELLS:
+            rough = np.abs(self._cells.fine - self._cells.coarse)
+            missed = np.bincount(self._home, self._beside, len(rough))
+            allowed = target * self.magnitude
+            if not float((rough + missed).sum()) > allowed:
+                break
+            self._cut(rough + missed > 0.5 * allowed / len(rough), missed > rough)
+
+    def _cut(self, which: Flags, unseen: Flags) -> None:
+        """Halve cells along the sides that are rough, or along both where no node tells."""
+        old, origin = self._cells, np.arange(len(which))
+        low, size = old.low, old.size
+        tails = old.tails
+        rough = tails * ALIKE >= tails.max(axis=1)[:, None]
+        sides = which[:, None] & (rough | unseen[:, None])
+        for side in (0, 1):
+            halved = sides[origin, side]
+            middle = low[:, side] + 0.5 * size[:, side]
+            beyond = halved[self._home] & (self._at[:, side] >= middle[self._home])
+            self._home = np.cumsum(1 + halved)[self._home] - np.where(halved, 2, 1)[self._home]
+            self._home += beyond
+            low, size, origin = _halves(low, size, halved, side, origin)
+        new = which[origin]
+        found, kept = self._measured(low[new], size[new]), old.part(~which)
+        order = np.argsort(np.concatenate([np.flatnonzero(~new), np.flatnonzero(new)]))
+        self._cells = Cells(*(column[order] for column in kept.joined(found)))
+        moved = new[self._home]
+        self._beside[moved] = self._differences(moved)
+
+    def _differences(self, which: Flags) -> Array:
+        """What some probes have seen farther from the polynomials than these are rough, times what
+        they stand for."""
+        home = self._home[which]
+        away = np.abs(self._seen[which] - self._cells.at(self._at[which], home))
+        found: Array = np.maximum(0.0, away - self._tails[home]) * self._share[which]
+        return found
+
+    def _measured(self, low: Array, size: Array) -> Cells:
+        """New cells."""
+        fine, coarse = (_rule(n) for n in self._square.chart.nodes)
+        n, area = len(fine.coefficients), size.prod(axis=1)
+        values, fewer = self._values(low, size, fine.nodes), self._values(low, size, coarse.nodes)
+        square, c = values.reshape(-1, n, n), fine.coefficients
+        polynomial = np.matmul(np.matmul(c, square), c.T)
+        return Cells(low, size, area * (values @ fine.weight), area * (fewer @ coarse.weight),
+                     polynomial)  # fmt: skip
+
+    def _values(self, low: Array, size: Array, nodes: Array) -> Array:
+        """At the nodes of cells, (cells, nodes)."""
+        found = []
+        for k in range(0, len(low), max(1, BATCH // len(nodes))):
+            here = slice(k, k + max(1, BATCH // len(nodes)))
+            at = low[here, None, :] + size[here, None, :] * nodes
+            found.append(self._square.both(*at.reshape(-1, 2).T)[0])
+        return np.concatenate(found).reshape(len(low), len(nodes))
+
+    def estimated(self, rng: np.random.Generator, target: float) -> tuple[float, float]:
+        """What polynomials leave of the integral, and half the width of its interval."""
+        for share in CUT:
+            self.refine(share * target)
+            rest, error = self._rest(rng, 1)
+            if not error > target * self.magnitude:
+                return rest, error
+        needed = (error / (ROUGHER * target * self.magnitude)) ** (1.0 / FASTEST)
+        most = math.isqrt(MOST_POINTS // (REPLICATES * len(self._cells.fine)))
+        strata = min(math.ceil(needed), most) if needed > 0.0 else 0
+        return self._rest(rng, strata) if strata > 1 else (rest, error)
+
+    def _rest(self, rng: np.random.Generator, strata: int) -> tuple[float, float]:
+        """The same by strata x strata points at random in every cell."""
+        many = max(FEWEST, min(REPLICATES, MOST_POINTS // len(self._cells.fine)))
+        sums = self._left(rng, many, strata)
+        width = student.quantile(SURELY / 2.0, many - 1) / math.sqrt(many)
+        return float(sums.mean()), width * float(sums.std(ddof=1))
+
+    def _left(self, rng: np.random.Generator, many: int, strata: int) -> Array:
+        """So many estimates of it, with strata x strata points in every cell."""
+        cells, total = self._cells, np.zeros(many)
+        area, n = cells.size.prod(axis=1) / strata**2, len(cells.fine)
+        together = max(1, BATCH // n)
+        for corner in _products(*2 * (np.arange(strata) / strata,)):
+            for k in range(0, many, together):
+                home = np.tile(np.arange(n), min(together, many - k))
+                at = corner + rng.random((len(home), 2)) / strata
+                at = cells.low[home] + cells.size[home] * at
+                left = (self._square.both(*at.T)[0] - cells.at(at, home)) * area[home]
+                total[k : k + together] += left.reshape(-1, n).sum(axis=1)
+        return total
+
+
+def _products(x: Array, y: Array) -> Array:
+    """All pairs, (n, 2)."""
+    return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
+
+
+def _place(edges: Array, x: Array) -> Places:
+    """Between which edges numbers lie."""
+    found: Places = np.clip(np.searchsorted(edges, x, "right") - 1, 0, len(edges) - 2)
+    return found
+
+
+def _halves(
+    low: Array, size: Array, halved: Flags, side: int, origin: Places
+) -> tuple[Array, Array, Places]:
+    """The cells with some halved along a side, the halves one after the other."""
+    parent = np.repeat(np.arange(len(low)), 1 + halved)
+    second = np.concatenate([[False], parent[1:] == parent[:-1]])
+    low, size, origin = low[parent], size[parent], origin[parent]
+    size[halved[parent], side] *= 0.5
+    low[second, side] += size[second, side]
+    return low, size, origin
+
+
+def star(centre: Sequence[float] | Array) -> Probes:
+    """Directions that come nearer to one by halves, on all sides, with the rings that they stand
+    for: they see a lobe of any width there."""
+    t, b = (np.array(v) for v in tangent_frame(tuple(map(float, centre))))
+    angle, turn = (g.ravel() for g in np.meshgrid(RINGS, SPOKES, indexing="ij"))
+    side = np.cos(turn)[:, None] * t + np.sin(turn)[:, None] * b
+    wi = np.cos(angle)[:, None] * np.array(centre) + np.sin(angle)[:, None] * side
+    above = wi[:, 2] > 0.0
+    return wi[above], (1.5 * np.pi * angle * angle / len(SPOKES))[above]
 
 
 def scale_of(wo: Array, wi: Array) -> float:
@@ -98,57 +342,3 @@ def grid(nx: int, nb: int) -> tuple[Array, Array, Array]:
     x, bb = np.meshgrid(0.5 * (node + 1.0), b, indexing="ij")
     w = np.repeat(0.5 * weight / nb, nb)
     return x.ravel(), bb.ravel(), w
-
-
-SIZES = ((24, 16), (48, 32), (96, 64), (128, 256), (192, 768))
-
-
-def integrate(
-    function: OfArray,
-    coordinates: Coordinates,
-    target: float = 1e-6,
-    probes: tuple[Probes, ...] = (),
-) -> Integral:
-    """Integral of function(wi) over the hemisphere; nodes grow until two sizes agree.
-
-    The error is the difference between the last two sizes: of the coarser one, so it errs on the
-    safe side for an integrand that is resolved at all. Where two sizes agree because both miss a
-    lobe, `probes` may see it: what they say that it holds is then the error.
-    """
-    last, error = np.nan, np.inf
-    for nx, nb in SIZES:
-        x, b, w = grid(nx, nb)
-        wi, jacobian = coordinates.directions(x, b)
-        values = function(wi)
-        value = float(np.sum(w * jacobian * values))
-        error = abs(value - last)
-        if error <= target * abs(value):
-            break
-        last = value
-    error = error if np.isfinite(error) else abs(value)
-    highest = _highest_around(np.abs(values).reshape(nx, nb))
-    place = coordinates, x.reshape(nx, nb)[:, 0], highest
-    missed = max((_missed(function, probe, *place) for probe in probes), default=0.0)
-    return Integral(value, max(error, missed) + 1e-14 * abs(value), missed)
-
-
-def _highest_around(values: Array) -> Array:
-    """Of every node and its eight neighbours the highest; b goes around."""
-    b = np.maximum(values, np.maximum(np.roll(values, 1, axis=1), np.roll(values, -1, axis=1)))
-    padded = np.pad(b, ((1, 1), (0, 0)), mode="edge")
-    highest: Array = np.maximum(b, np.maximum(padded[:-2], padded[2:]))
-    return highest
-
-
-def _missed(
-    function: OfArray, probe: Probes, coordinates: Coordinates, nodes: Array, highest: Array
-) -> float:
-    """The integral of what is far above the values at the nodes around it."""
-    wi, angle = probe
-    if not len(wi):
-        return 0.0
-    values = np.abs(function(wi))
-    x, b = coordinates.coordinates(wi)
-    i = np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), x)
-    j = np.minimum((b * highest.shape[1]).astype(int), highest.shape[1] - 1)
-    return float(np.sum((values * angle)[values > MISSED * highest[i, j]]))
