@@ -38,8 +38,9 @@ from montecarlo_brdf.checks._cells import Cells
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.quadrature import Coordinates, integrate
+from montecarlo_brdf.estimate.quadrature import integrate
 from montecarlo_brdf.estimate.quantity import Quantity, second_moment
+from montecarlo_brdf.estimate.regions import Coordinates
 from montecarlo_brdf.estimate.samplers import (
     BLIND,
     functions_of,
@@ -88,7 +89,7 @@ def claims(model: Any, one: Any, theta: float) -> Iterator[Claim]:
     if known:
         yield _claim(model, one, wo, "albedo", known.value, known.error)
     lit = functools.partial(_lit, pointwise(model, one).f, np.array(wo))
-    found = integrate(lit, _truth.coordinates(model, one, np.array(wo)), 1e-11)
+    found = integrate(lit, Coordinates(wo), 1e-11, _truth.probes(model, one, wo))
     yield _claim(model, one, wo, "radiance", found.value, found.error, SKY=radiance.either_sky)
     if model.sample and model.pdf:
         yield _rejected(model, one, wo)
@@ -120,9 +121,8 @@ def _claim(
 
 def _rejected(model: Any, one: Any, wo: Any) -> Claim:
     """The rejected fraction of the sampler and int pdf against 1."""
-    direction = np.array(wo)
-    coordinates = Coordinates(direction, _truth.lobe_scale(model, one, direction))
-    found = integrate(lambda wi: pointwise(model, one).pdf(direction, wi), coordinates, 1e-11)
+    pdf, seen = pointwise(model, one).pdf, _truth.probes(model, one, wo)
+    found = integrate(lambda wi: pdf(np.array(wo), wi), Coordinates(wo), 1e-11, seen)
     label = ("false alarms", "rejected")
     lost = integrand(model, Quantity.REJECTED, Sampler.OWN)
     q = replicates.Question(subject_of(model, one), wo, [lost], label)

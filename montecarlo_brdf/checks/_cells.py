@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import functools
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.checks._draws import density_integral_of
 from montecarlo_brdf.checks._truth import lobe_scale
 from montecarlo_brdf.estimate import cells
-from montecarlo_brdf.estimate.quadrature import Coordinates
+from montecarlo_brdf.estimate.quadrature import Integral
+from montecarlo_brdf.estimate.regions import Coordinates
 
 if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array
 
 COARSE, FINE, FINEST = (384, 256), (768, 512), (1536, 1024)  # grids of tabulated densities
-UNSURE = 0.01  # a rejected share that steps of the density may feign
 JITTERED = 0x5EED  # the key of places at random in their squares
 CELLS = cells.ROWS * cells.COLUMNS
 
@@ -47,12 +49,20 @@ class Cells:
         at = cells.placed(self.model, self.cut, wi)
         return np.bincount(at, weights=density, minlength=CELLS).astype(float)
 
+    @functools.cached_property
+    def integral(self) -> Integral:
+        """Of the density, by a quadrature that finds its peaks wherever they are."""
+        return density_integral_of(self.model, self.p, tuple(map(float, self.wo)))
+
     @property
     def error(self) -> float:
         """Distance between the cells' probabilities by the two grids: what a density with steps
-        leaves unresolved."""
+        leaves unresolved; and what both have less, or more, than its integral, which may be of any
+        cell."""
         each = self.tables[2] / CELLS
-        return float(np.sqrt(np.sum((self.jittered - each) ** 2 / each)))
+        grids = float(np.sqrt(np.sum((self.jittered - each) ** 2 / each)))
+        lacking = abs(self.integral.value - self.tables[2]) - self.integral.error
+        return grids + max(0.0, lacking) / math.sqrt(each)
 
     @functools.cached_property
     def cut(self) -> cells.Cut:
@@ -70,16 +80,12 @@ class Cells:
     @property
     def probability(self) -> Array:
         """Of each cell, and last of a rejected draw."""
-        mass = self.tables[2]
-        return np.array([mass / CELLS] * CELLS + [max(1.0 - mass, 0.0)])
+        return np.array([self.tables[2] / CELLS] * CELLS + [self.rejected])
 
-    @functools.cached_property
-    def rejects(self) -> bool:
-        """Whether draws are rejected at all, as far as the two grids agree on it."""
-        rejected = 1.0 - self.tables[2]
-        if not 0.0 < rejected < UNSURE:
-            return rejected > 0.0
-        return rejected > 3.0 * abs(float(np.sum(self.jittered)) - self.tables[2])
+    @property
+    def rejected(self) -> float:
+        """The share of rejected draws by the density's integral."""
+        return max(1.0 - self.integral.value, 0.0)
 
 
 def edges(cumulated: Array, parts: int) -> Array:

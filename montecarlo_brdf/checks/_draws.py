@@ -14,9 +14,9 @@ import numpy as np
 from montecarlo_brdf.cases import directions, parameters
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
 from montecarlo_brdf.checks._hints import azimuth_named, moved_named, shape_named, wider_named
-from montecarlo_brdf.checks._truth import lobe_scale, own_probes
+from montecarlo_brdf.checks._truth import integral, probes
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.quadrature import Coordinates, Integral, integrate
+from montecarlo_brdf.estimate.quadrature import Integral
 from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Exact
@@ -80,19 +80,16 @@ def chooses(case: Case, theta: float) -> bool:
     return False
 
 
-def density_integral(case: Case, theta: float) -> Integral:
-    """int pdf over the hemisphere, by quadrature."""
-    return density_integral_of(case.model, case.one, case.wo(theta))
+def density_integral(case: Case, theta: float, seed: int = 0) -> Integral:
+    """int pdf over the hemisphere, by quadrature; another for another seed."""
+    return density_integral_of(case.model, case.one, case.wo(theta), seed)
 
 
 @functools.lru_cache(maxsize=128)
-def density_integral_of(model: Model, one: Parameters, wo: Vec) -> Integral:
+def density_integral_of(model: Model, one: Parameters, wo: Vec, seed: int = 0) -> Integral:
     """The same for a model, a parameter set and a direction."""
-    direction = np.array(wo)
-    coordinates = Coordinates(direction, lobe_scale(model, one, direction))
-    functions = pointwise(model, one)
-    seen = own_probes(model, one, wo)
-    return integrate(lambda wi: functions.pdf(direction, wi), coordinates, probes=seen)
+    pdf, fixed = pointwise(model, one).pdf, np.array(wo)
+    return integral(lambda wi: pdf(fixed, wi), wo, probes(model, one, wo, seed=seed), seed)
 
 
 def faults(case: Case, theta: float) -> Exact:

@@ -26,8 +26,8 @@ PROBES = 2048  # of these
 ROUNDING = 4.0 * 2.0**-52
 SOURCE = "adaptive quadrature"
 RESOLVED = 0.25  # of a tolerance: what the error of a quadrature may take of it to judge by
-QUOTABLE = RESOLVED * AGREEMENT_TOLERANCE  # relative error of a quadrature that is an estimator
-TARGET = 0.1 * QUOTABLE  # where f is smooth, errors fall fast
+QUOTABLE = AGREEMENT_TOLERANCE  # relative error up to which a quadrature is an estimator
+TARGET = 0.1 * RESOLVED * AGREEMENT_TOLERANCE  # where f is smooth, errors fall fast
 
 
 def albedo(
@@ -70,14 +70,19 @@ def _declared(model: Model, one: Parameters, mu: float) -> Reference:
 
 
 def same_f(
-    model: Model, one: Parameters, theta_deg: float, phi_deg: float = 0.0, seed: int = 0
+    model: Model,
+    one: Parameters,
+    theta_deg: float,
+    phi_deg: float = 0.0,
+    seed: int = 0,
+    target: float = TARGET,
 ) -> Reference | None:
     """A(wo) by a quadrature of f: it can refute samplers and estimators, not f itself.
 
     None where the quadrature does not resolve f well enough to judge anything by. Another seed
-    gives another quadrature.
+    gives another quadrature, to a relative error of `target` where that can be.
     """
-    found = quadrature(model, one, from_degrees(theta_deg, phi_deg), seed=seed)
+    found = quadrature(model, one, from_degrees(theta_deg, phi_deg), False, seed, target)
     return as_reference(found, AGREEMENT_TOLERANCE)
 
 
@@ -90,7 +95,12 @@ def as_reference(found: Integral, tolerance: float) -> Reference | None:
 
 @functools.lru_cache(maxsize=1024)
 def quadrature(
-    model: Model, one: Parameters, fixed: Vec, reverse: bool = False, seed: int = 0
+    model: Model,
+    one: Parameters,
+    fixed: Vec,
+    reverse: bool = False,
+    seed: int = 0,
+    target: float = TARGET,
 ) -> Integral:
     """A(wo) or, reversed, R(wi)."""
     import numpy as np
@@ -98,19 +108,29 @@ def quadrature(
     w = np.array(fixed)
     f = pointwise(model, one).f
     values = (lambda v: f(v, w)) if reverse else (lambda v: f(w, v))
-    return integral(
-        lambda v: values(v) * v[:, 2], fixed, probes(model, one, fixed, reverse, seed), seed
-    )
+    seen = probes(model, one, fixed, reverse, seed)
+    return integral(lambda v: values(v) * v[:, 2], fixed, seen, seed, target)
+
+
+def confirmed(model: Model, one: Parameters, fixed: Vec, reverse: bool = False) -> Integral:
+    """The same, with an error that also covers another quadrature."""
+    first, other = (quadrature(model, one, fixed, reverse, seed) for seed in (0, 1))
+    apart = abs(first.value - other.value) + other.error
+    return first._replace(error=max(first.error, apart))
 
 
 def integral(
-    function: Callable[[Array], Array], wo: Vec, seen: Sequence[Probes], seed: int
+    function: Callable[[Array], Array],
+    wo: Vec,
+    seen: Sequence[Probes],
+    seed: int,
+    target: float = TARGET,
 ) -> Integral:
     """int function(w) dw over the hemisphere, in half vectors with wo."""
     from montecarlo_brdf.estimate.quadrature import integrate
     from montecarlo_brdf.estimate.regions import Coordinates
 
-    return integrate(function, Coordinates(wo), TARGET, seen, seed)
+    return integrate(function, Coordinates(wo), target, seen, seed)
 
 
 def probes(
@@ -157,7 +177,11 @@ def deterministic(
 ) -> Measurement:
     """The same as an estimator beside those that sample: every seed gives another quadrature than
     that of the reference."""
-    value, error, _ = quadrature(model, one, fixed, reverse, 1 + seed)
+    return as_measurement(*quadrature(model, one, fixed, reverse, 1 + seed))
+
+
+def as_measurement(value: float, error: float) -> Measurement:
+    """What a quadrature found, as estimators say it."""
     e = Estimate(value, error, 0, (value, value), value * value, value)
     unfit = None if error <= QUOTABLE * abs(value) else f"the quadrature resolves only {error:.0e}"
     return Measurement("quadrature", e, unfit, error)
@@ -171,9 +195,7 @@ def lobe_scale(model: Model, one: Parameters, wo: Array) -> float:
 
 
 @functools.lru_cache(maxsize=8)
-def _pilot_draws(
-    model: Model, one: Parameters, wo: Vec, seed: int = 0
-) -> tuple[Array, Array]:
+def _pilot_draws(model: Model, one: Parameters, wo: Vec, seed: int = 0) -> tuple[Array, Array]:
     """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first
     PROBES."""
     import numpy as np

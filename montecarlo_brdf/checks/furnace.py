@@ -9,12 +9,11 @@ and a non-reciprocal model's R(wi) > 1.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from montecarlo_brdf.cases.case import Case, Parameters
-from montecarlo_brdf.checks import _albedo, _slopes, _truth
-from montecarlo_brdf.estimate.trust import Measurement
+from montecarlo_brdf.checks import _albedo, _truth
 from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
     BOUND_TOLERANCE,
@@ -61,7 +60,6 @@ def at_angle(case: Case, theta: float) -> Iterator[MeanClaim]:
         scale = abs(expected.value) if expected else 1.0
         source = functools.partial(_albedo.of_channel, measured, k)
         quadrature = functools.partial(_truth.deterministic, case.model, one, case.wo(theta))
-        more = _fallback(case, one, theta, expected) if case.samplers is None else None
         yield MeanClaim(
             "A",
             where,
@@ -70,7 +68,8 @@ def at_angle(case: Case, theta: float) -> Iterator[MeanClaim]:
             case.tolerated(AGREEMENT_TOLERANCE) * scale,
             source,
             unit=_albedo.units(case.model, one),
-            fallback=more,
+            fallback=quadrature if case.samplers is None else None,
+            afresh=functools.partial(_truth.albedo, case.model, one, theta, case.phi_o_deg),
         )
         yield MeanClaim(
             "A <= 1",
@@ -83,17 +82,6 @@ def at_angle(case: Case, theta: float) -> Iterator[MeanClaim]:
             unit=_albedo.units(case.model, one),
             fallback=quadrature,
         )
-
-
-def _fallback(
-    case: Case, one: Parameters, theta: float, expected: Reference | None
-) -> Callable[[int], Measurement]:
-    """What is asked where samples leave "A equals its reference" open: a quadrature of f; where
-    that is the reference, which says nothing about itself, draws that follow the lobe."""
-    known = expected is not None and expected.kind != Kind.SAME_F
-    return functools.partial(
-        _truth.deterministic if known else _slopes.albedo, case.model, one, case.wo(theta)
-    )
 
 
 def _weights(case: Case, one: Parameters, where: dict[str, Any]) -> Claim:

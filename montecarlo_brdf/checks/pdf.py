@@ -13,7 +13,6 @@ can).
 from __future__ import annotations
 
 import functools
-import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -21,7 +20,7 @@ import numpy as np
 
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import _draws, _slopes
+from montecarlo_brdf.checks import _draws
 from montecarlo_brdf.checks._truth import RESOLVED
 from montecarlo_brdf.estimate.evaluate import estimates
 from montecarlo_brdf.estimate.plan import Plan
@@ -30,6 +29,7 @@ from montecarlo_brdf.estimate.samplers import integrand
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, MeanClaim, Reference, Skip
 from montecarlo_brdf.judge.finding import Bound
+from montecarlo_brdf.judge.mean import FRESH
 from montecarlo_brdf.model import Property
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate, hidden_error
@@ -128,23 +128,11 @@ def _normalisation(case: Case, theta: float) -> MeanClaim:
         functools.partial(_mass, case, theta),
         property=PROPERTY,
         diagnosis=functools.partial(_named, case, theta),
-        fallback=functools.partial(_sampled_mass, case, theta),
     )
 
 
 def _named(case: Case, theta: float) -> str | None:
     return None if _draws.chooses(case, theta) else _draws.ratio_cause(case, theta)
-
-
-def _sampled_mass(case: Case, theta: float, seed: int) -> Measurement:
-    """The same where a density with steps is more than the quadrature resolves."""
-    found = _slopes.mass(case.model, case.one, case.wo(theta), seed)
-    if _draws.density_integral(case, theta).missed > MASS_TOLERANCE:
-        found = found._replace(unfit="a lobe where half vectors do not show it")
-    rejected = _rejected(case, theta, Plan(samples=found.estimate.samples, seed=seed))
-    stderr = math.hypot(found.estimate.stderr, rejected.stderr)
-    whole = found.estimate._replace(mean=found.estimate.mean + rejected.mean, stderr=stderr)
-    return found._replace(estimate=whole)
 
 
 def _rejected(case: Case, theta: float, plan: Plan) -> Estimate:
@@ -156,7 +144,7 @@ def _rejected(case: Case, theta: float, plan: Plan) -> Estimate:
 
 def _mass(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     """int pdf by quadrature plus the rejected fraction by draws."""
-    integral = _draws.density_integral(case, theta)
+    integral = _draws.density_integral(case, theta, plan.seed // FRESH)
     rejected = _rejected(case, theta, plan)
     unfit = None
     if not integral.error <= RESOLVED * case.tolerated(MASS_TOLERANCE) + 1e-9:

@@ -16,18 +16,17 @@ import numpy as np
 
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case, pointwise
-from montecarlo_brdf.checks import _slopes, _truth
+from montecarlo_brdf.checks import _truth
 from montecarlo_brdf.estimate import trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.quadrature import integrate
+from montecarlo_brdf.estimate.quadrature import Integral
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand, samplers_of, subject_of, weighted
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, Kind, MeanClaim, Reference, Skip
+from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, MeanClaim, Reference, Skip
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
-from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec
 
 if TYPE_CHECKING:
@@ -63,8 +62,9 @@ WHICH = {name: float(k) for k, name in enumerate(SKIES)}
 def claims(case: Case) -> Iterator[Claim]:
     """One per place and sky."""
     for there, theta, where in _places(case):
-        for name, sky in SKIES.items():
-            expected = _expected(there, theta, sky)
+        for name in SKIES:
+            afresh = functools.partial(_expected, there, theta, name)
+            expected = afresh()
             if expected is None:
                 yield Skip(
                     f"L_o, {name} sky", "the quadrature does not resolve f: nothing to compare with"
@@ -78,7 +78,8 @@ def claims(case: Case) -> Iterator[Claim]:
                 case.tolerated(TOLERANCE) * abs(expected.value),
                 functools.partial(_measure, there, theta, name),
                 property=PROPERTY,
-                fallback=_fallback(there, theta, name),
+                fallback=functools.partial(_deterministic, there, theta, name),
+                afresh=afresh,
             )
 
 
@@ -92,12 +93,23 @@ def _places(case: Case) -> Iterator[tuple[Case, float, dict[str, Any]]]:
             yield other, theta, parameters.where(other, theta)
 
 
-def _expected(case: Case, theta: float, sky: Callable[[Any], float], seed: int) -> Integral:
-    wo, f = case.wo(theta), pointwise(case.model, case.one).f
+def _expected(case: Case, theta: float, name: str, seed: int = 0) -> Reference | None:
+    return _truth.as_reference(_integral(case, theta, name, seed), TOLERANCE)
+
+
+def _deterministic(case: Case, theta: float, name: str, seed: int) -> Measurement:
+    """Asked where samples leave the claim open."""
+    return _truth.as_measurement(*_integral(case, theta, name, 1 + seed))
+
+
+def _integral(case: Case, theta: float, name: str, seed: int) -> Integral:
+    wo, f, sky = case.wo(theta), pointwise(case.model, case.one).f, SKIES[name]
     fixed = np.array(wo)
 
     def lit(wi: Array) -> Array:
-        return f(fixed, wi) * wi[:, 2] * sky(wi.T)
+        light: Any = sky(wi.T)  # type: ignore[arg-type]  # of arrays too
+        found: Array = f(fixed, wi) * wi[:, 2] * light
+        return found
 
     return _truth.integral(lit, wo, _truth.probes(case.model, case.one, wo, seed=seed), seed)
 

@@ -19,7 +19,7 @@ import numpy as np
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws
-from montecarlo_brdf.checks._cells import COARSE, FINE, FINEST, UNSURE, Cells
+from montecarlo_brdf.checks._cells import COARSE, FINE, FINEST, Cells
 from montecarlo_brdf.estimate.cells import COLUMNS, ROWS
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Fit, FitClaim, Skip
@@ -105,14 +105,11 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     mass = cells.tables[2]
     if not 0.0 < mass < HEAVIEST:
         return Fit(math.nan, math.inf, 1.0, 0, f"the pdf has mass {mass:.4g}: see `pdf`")
-    if _draws.density_integral(case, theta).missed > UNSURE:
-        hidden = "a lobe of pdf lies where half vectors do not show it"
-        return Fit(math.nan, math.inf, 1.0, 0, hidden)
     n = min(math.ceil(DRAWS * plan.samples), case.budget(MOST))
     place = (theta, case.phi_o_deg, *case.one)
     key = stream(plan.seed, case.model.identity, NAME, *place, n)
     counts, expected = cells.counts(key, n, plan.threads), cells.probability
-    if counts[-1] < UNSURE * n and not cells.rejects:  # so few are a question for `pdf`
+    if abs(counts[-1] / n - cells.rejected) <= cells.integral.error:  # a question for `pdf`
         counts[-1] = expected[-1] = 0.0
     found = judged(counts, expected, level)
     found = found._replace(hint=_hint(counts, expected))

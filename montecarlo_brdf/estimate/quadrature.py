@@ -12,13 +12,13 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from montecarlo_brdf import student
-from montecarlo_brdf.estimate.regions import Chart, Coordinates as Coordinates
+from montecarlo_brdf.estimate.regions import Chart
+from montecarlo_brdf.statistics import quantile
 from montecarlo_brdf.vectors import tangent_frame
 
 Array = NDArray[np.float64]
@@ -32,24 +32,24 @@ Probes = tuple[Array, Array]
 TAIL = 2  # coefficients of the highest degrees, which tell along which side a cell is rough
 ALIKE = 4.0  # sides are both cut where one is rougher than the other by less
 CUT = (0.1, 1e-3)  # of the error allowed: up to that rules must agree, at first and at last
+SPARE = 0.5
 ROUGHER = 10.0  # of it: what is left where no polynomial fits, and points alone decide
-FASTEST = 1.5  # the error of an integrand with steps falls like that power of strata
-MOST_CELLS = 3000
-MOST_POINTS = 1 << 22
+MOST_CELLS = 2000
+MOST_POINTS = 1 << 21
 BATCH = 1 << 16  # values in one call
 REPLICATES, FEWEST = 32, 8
 SURELY = 1e-9  # chance that the truth lies farther away than the error
-LAST = 1.0 - 2.0**-50  # a coordinate that is still within the region
+LAST = 1.0 - 2.0**-53  # the last coordinate within the region
+CORNER = 1.0 - 1e-9  # f need not be finite at the very ends of a region
 ROUNDING = 1e-14
 RINGS, SPOKES = 0.5 ** np.arange(1.0, 21.0), np.arange(8) * (np.pi / 4.0) + 0.2
 
 
 class Integral(NamedTuple):
-    """An integral, how far it is from the truth at most, and what of that probes alone saw."""
+    """An integral, and how far it is from the truth at most."""
 
     value: float
     error: float
-    missed: float = 0.0
 
 
 def integrate(
@@ -71,7 +71,7 @@ def integrate(
     value = mesh.value + rest
     if not math.isfinite(value):
         return Integral(value, math.inf)
-    return Integral(value, max(error, mesh.missed) + ROUNDING * mesh.magnitude, mesh.missed)
+    return Integral(value, max(error, mesh.missed) + ROUNDING * mesh.magnitude)
 
 
 class Square:
@@ -108,20 +108,31 @@ def _moved(edges: Array, rng: np.random.Generator) -> Array:
 
 
 class Rule(NamedTuple):
-    """Gauss-Legendre on the unit square: nodes (n n, 2), weights, and the matrix from values along
-    a side to coefficients of Legendre's polynomials."""
+    """A rule on the unit square: nodes (n n, 2), weights, and the matrix from values along a side
+    to coefficients of Legendre's polynomials."""
 
     nodes: Array
     weight: Array
     coefficients: Array
 
 
+def _rule(nodes: NDArray[Any]) -> Rule:
+    """The rule that integrates the polynomials through some nodes in (-1, 1) on each side."""
+    made = np.linalg.inv(np.polynomial.legendre.legvander(nodes, len(nodes) - 1))
+    side = 0.5 * (nodes + 1.0)
+    return Rule(_products(side, side), np.outer(made[0], made[0]).ravel(), made)
+
+
 @functools.cache
-def _rule(n: int) -> Rule:
-    node, weight = np.polynomial.legendre.leggauss(n)
-    x, y = (0.5 * (g.ravel() + 1.0) for g in np.meshgrid(node, node, indexing="ij"))
-    made = np.linalg.inv(np.polynomial.legendre.legvander(node, n - 1))
-    return Rule(np.stack([x, y], axis=1), 0.25 * np.outer(weight, weight).ravel(), made)
+def _gauss(n: int) -> Rule:
+    return _rule(np.polynomial.legendre.leggauss(n)[0])
+
+
+@functools.cache
+def _lobatto(n: int) -> Rule:
+    """With nodes in the corners, which a step that cuts a cell parts."""
+    inner = np.polynomial.legendre.Legendre.basis(n - 1).deriv().roots().real
+    return _rule(np.array([-CORNER, *np.sort(inner), CORNER]))
 
 
 class Cells(NamedTuple):
@@ -239,7 +250,8 @@ class Mesh:
 
     def _measured(self, low: Array, size: Array) -> Cells:
         """New cells."""
-        fine, coarse = (_rule(n) for n in self._square.chart.nodes)
+        many, few = self._square.chart.nodes
+        fine, coarse = _gauss(many), _lobatto(few)
         n, area = len(fine.coefficients), size.prod(axis=1)
         values, fewer = self._values(low, size, fine.nodes), self._values(low, size, coarse.nodes)
         square, c = values.reshape(-1, n, n), fine.coefficients
@@ -258,36 +270,58 @@ class Mesh:
 
     def estimated(self, rng: np.random.Generator, target: float) -> tuple[float, float]:
         """What polynomials leave of the integral, and half the width of its interval."""
+        many = max(FEWEST, min(REPLICATES, MOST_POINTS // len(self._cells.fine)))
+        width = quantile(SURELY / 2.0, many - 1) / math.sqrt(many)
         for share in CUT:
             self.refine(share * target)
-            rest, error = self._rest(rng, 1)
+            left = self._left(rng, many, np.ones(len(self._cells.fine), dtype=int))
+            rest, error = _interval(left, width)
             if not error > target * self.magnitude:
                 return rest, error
-        needed = (error / (ROUGHER * target * self.magnitude)) ** (1.0 / FASTEST)
-        most = math.isqrt(MOST_POINTS // (REPLICATES * len(self._cells.fine)))
-        strata = min(math.ceil(needed), most) if needed > 0.0 else 0
-        return self._rest(rng, strata) if strata > 1 else (rest, error)
+        most = ROUGHER * target * self.magnitude
+        if not error > most:
+            return rest, error
+        goal = SPARE * most / width  # spreads are known from few points
+        strata = _strata(left.std(axis=0, ddof=1), goal, MOST_POINTS / many)
+        return _interval(self._left(rng, many, strata), width)
 
-    def _rest(self, rng: np.random.Generator, strata: int) -> tuple[float, float]:
-        """The same by strata x strata points at random in every cell."""
-        many = max(FEWEST, min(REPLICATES, MOST_POINTS // len(self._cells.fine)))
-        sums = self._left(rng, many, strata)
-        width = student.quantile(SURELY / 2.0, many - 1) / math.sqrt(many)
-        return float(sums.mean()), width * float(sums.std(ddof=1))
+    def _left(self, rng: np.random.Generator, many: int, strata: Places) -> Array:
+        """So many estimates of it in every cell, (many, cells), by points at random in `strata` by
+        `strata` parts of each."""
+        cells, number = self._cells, strata**2
+        home = np.repeat(np.arange(len(number)), number)
+        part = np.arange(len(home)) - (np.cumsum(number) - number)[home]
+        corner = np.stack([part // strata[home], part % strata[home]], axis=1)
+        together, n, found = max(1, BATCH // len(home)), len(number), []
+        for k in range(0, many, together):
+            at = rng.random((min(together, many - k), len(home), 2))
+            at = (cells.low[home] + cells.size[home] * (corner + at) / strata[home, None])
+            row = np.arange(len(at))[:, None] * n
+            places, of = at.reshape(-1, 2), np.tile(home, len(at))
+            left = self._square.both(*places.T)[0] - cells.at(places, of)
+            found.append(np.bincount((row + home).ravel(), left, len(at) * n).reshape(-1, n))
+        area: Array = cells.size.prod(axis=1) / number
+        return np.concatenate(found) * area
 
-    def _left(self, rng: np.random.Generator, many: int, strata: int) -> Array:
-        """So many estimates of it, with strata x strata points in every cell."""
-        cells, total = self._cells, np.zeros(many)
-        area, n = cells.size.prod(axis=1) / strata**2, len(cells.fine)
-        together = max(1, BATCH // n)
-        for corner in _products(*2 * (np.arange(strata) / strata,)):
-            for k in range(0, many, together):
-                home = np.tile(np.arange(n), min(together, many - k))
-                at = corner + rng.random((len(home), 2)) / strata
-                at = cells.low[home] + cells.size[home] * at
-                left = (self._square.both(*at.T)[0] - cells.at(at, home)) * area[home]
-                total[k : k + together] += left.reshape(-1, n).sum(axis=1)
-        return total
+
+def _interval(left: Array, width: float) -> tuple[float, float]:
+    """The mean of estimates that are sums over cells, and half the width of its interval."""
+    sums = left.sum(axis=1)
+    return float(sums.mean()), width * float(sums.std(ddof=1))
+
+
+def _strata(spread: Array, error: float, points: float) -> Places:
+    """Parts along the sides of every cell, for a standard error of the sum of all and at most so
+    many points.
+
+    Of n points, one in each part of a cell that a step cuts, the spread of a mean falls like
+    n^-3/4: then the fewest are needed where n goes like the spread of one to the 4/5.
+    """
+    each = spread**0.8
+    needed = (float(each.sum()) / error**2) ** (2.0 / 3.0)
+    share = min(needed, points / float(each.sum()))
+    found: Places = np.maximum(1, np.ceil(np.sqrt(share * each))).astype(int)
+    return found
 
 
 def _products(x: Array, y: Array) -> Array:
@@ -316,7 +350,8 @@ def _halves(
 def star(centre: Sequence[float] | Array) -> Probes:
     """Directions that come nearer to one by halves, on all sides, with the rings that they stand
     for: they see a lobe of any width there."""
-    t, b = (np.array(v) for v in tangent_frame(tuple(map(float, centre))))
+    x, y, z = map(float, centre)
+    t, b = (np.array(v) for v in tangent_frame((x, y, z)))
     angle, turn = (g.ravel() for g in np.meshgrid(RINGS, SPOKES, indexing="ij"))
     side = np.cos(turn)[:, None] * t + np.sin(turn)[:, None] * b
     wi = np.cos(angle)[:, None] * np.array(centre) + np.sin(angle)[:, None] * side

@@ -52,6 +52,10 @@ class Reference(NamedTuple):
             return None
         return {"kind": self.kind, "source": self.source, "error": self.error}
 
+    def times(self, factor: float) -> Reference:
+        """What is expected of `factor` times the number."""
+        return self._replace(value=factor * self.value, error=abs(factor) * self.error)
+
     def excess(self, bound: Bound, value: float) -> float:
         """How far a value lies outside its bound."""
         over = value - self.value
@@ -194,6 +198,8 @@ class MeanClaim:
     cause: Callable[[], str] | None = None  # the hint where no number tells
     #: asked, for a seed, where samples leave the claim open
     fallback: Callable[[int], Measurement] | None = None
+    #: what is expected by another quadrature, for a seed; None where that resolves nothing
+    afresh: Callable[[int], Reference | None] | None = None
 
 
 Claim = MeanClaim | ExactClaim | FitClaim | SlopeClaim | Limit | Skip

@@ -31,6 +31,9 @@ CONFIRMING_REPLICATES = 64
 #: the probabilities of both being wrong multiply. Lattices are not asked: where one mode dominates,
 #: the tails of few shifts are not those of Student's t.
 CONFIRMING_POINTS = PointSet.SOBOL
+#: estimators that use nothing of a model but its f: of directions from everywhere, or from a
+#: sky, and another quadrature
+OF_F_ALONE = (*BLIND, "sky", "quadrature")
 #: how often a deviation of the size `resolves` may escape
 ESCAPES = 0.05
 #: how often the spread of another run may exceed what `resolves` allows for
@@ -171,15 +174,47 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
     """The finding for a mean: looked at until every estimator that can has decided.
 
     Where a quadrature of f is refuted that says the same f, the estimators are held against each
-    other: if they agree, it has missed something.
+    other: if they agree, it has missed something. It refutes what they say of the same integral
+    only if another quadrature does so too; else nobody knows which of the two is wrong.
     """
     opinions, looked = _looked_at(claim, plan, level)
-    if overall(opinions) == Verdict.FAIL and _of_same_f(claim):
-        alone = replace(claim, expected=None)
-        found, further = _looked_at(alone, plan, level)
-        if _missed(opinions) or overall(found) == Verdict.PASS:
-            claim, opinions, looked = alone, found, further
-    return _finding(claim, opinions, level, (looked, plan.samples), known)
+    if overall(opinions) != Verdict.FAIL or not _of_same_f(claim):
+        return _finding(claim, opinions, level, (looked, plan.samples), known)
+    found, further = _looked_at(replace(claim, expected=None), plan, level)
+    if overall(found) == Verdict.PASS or (_missed(opinions) and overall(found) == Verdict.FAIL):
+        return _finding(
+            replace(claim, expected=None), found, level, (further, plan.samples), known
+        )
+    told = None
+    if _missed(opinions) or not _again(claim, opinions, plan, level):
+        told = _unresolved(claim, opinions)
+        opinions = changed(opinions, lambda o: o.verdict == Verdict.FAIL, Verdict.INCONCLUSIVE)
+    return _finding(claim, opinions, level, (looked, plan.samples), known, told)
+
+
+def _again(claim: MeanClaim, opinions: Opinions, plan: Plan, level: float) -> bool:
+    """Whether another quadrature refutes what was measured, too: where the mean is no number none
+    needs to."""
+    if claim.afresh is None:
+        return True
+    other = claim.afresh(plan.seed + FRESH)
+    measured = [o.measurement for o in opinions]
+    lost = [m for m in measured if not m.unfit and not math.isfinite(m.estimate.mean)]
+    if other is None:
+        return bool(lost)
+    return overall(judged(replace(claim, expected=other), measured, level)) == Verdict.FAIL
+
+
+def _unresolved(claim: MeanClaim, opinions: Opinions) -> str:
+    """That the tool's own numbers of one integral differ."""
+    assert claim.expected
+    o, expected = telling(opinions), claim.expected
+    e = o.measurement.estimate
+    return (
+        f"not resolved: {o.measurement.estimator} sampling says {e.mean:.8g} +- "
+        f"{o.half_width:.1e}, the quadrature of the same f {expected.value:.8g} +- "
+        f"{expected.error:.1e}; decide it with --samples {GROWTH * e.samples}"
+    )
 
 
 def _of_same_f(claim: MeanClaim) -> bool:
@@ -198,7 +233,7 @@ def _resolving(claim: MeanClaim, opinions: Opinions) -> Opinion:
 def _missed(opinions: Opinions) -> bool:
     """Whether samples of f refute a quadrature of the same f: it has missed something."""
     refuting = [o.measurement for o in opinions if o.verdict == Verdict.FAIL]
-    return any(m.estimator in BLIND and math.isfinite(m.estimate.mean) for m in refuting)
+    return any(m.estimator in OF_F_ALONE and math.isfinite(m.estimate.mean) for m in refuting)
 
 
 def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[Opinions, int]:
@@ -261,9 +296,11 @@ def _compared_last(claim: MeanClaim, opinions: Opinions, seed: int, level: float
 
 
 def _finding(
-    claim: MeanClaim, opinions: Opinions, level: float, looked: tuple[int, int], known: str | None
-) -> Finding:
-    """looked: samples of the last look taken, and of the last one allowed."""
+    claim: MeanClaim, opinions: Opinions, level: float, looked: tuple[int, int], known: str | None,
+    doubt: str | None = None,
+) -> Finding:  # fmt: skip
+    """looked: samples of the last look taken, and of the last one allowed; doubt: why it is open,
+    where that is known."""
     shown, verdict = telling(opinions), overall(opinions)
     fit = sum(not o.measurement.unfit for o in opinions)
     last = level * 2.0 ** -len(looks(looked[1])) / max(1, fit)
@@ -276,7 +313,7 @@ def _finding(
         expected.value if expected else None, claim.tolerance,
         resolves(claim, _resolving(claim, opinions), last, looked[0] / looked[1]), level,
         e.samples, shown.measurement.estimator, expected.told() if expected else None,
-        [_row(claim, o) for o in opinions], note or None,
+        [_row(claim, o) for o in opinions], doubt or note or None,
         _hint(claim, e.mean, opinions) if verdict in (Verdict.FAIL, Verdict.KNOWN) else None,
     )  # fmt: skip
 
@@ -296,6 +333,8 @@ def _row(claim: MeanClaim, opinion: Opinion) -> dict[str, object]:
     }  # fmt: skip
     if m.unfit:
         row["not_used"] = m.unfit
+    elif opinion.verdict == Verdict.INCONCLUSIVE and m.bound is not None:
+        row["not_used"] = f"resolves only {opinion.half_width:.1e}"
     elif opinion.verdict == Verdict.INCONCLUSIVE:
         row["not_used"] = (
             f"resolves only {opinion.half_width:.1e} with {m.estimate.samples} samples: "
@@ -319,7 +358,7 @@ def _note(claim: MeanClaim, verdict: Verdict, opinions: Opinions) -> str | None:
     """What an inconclusive finding needs."""
     if verdict != Verdict.INCONCLUSIVE:
         return None
-    fit = [o for o in opinions if not o.measurement.unfit]
+    fit = [o for o in opinions if not o.measurement.unfit and o.measurement.bound is None]
     if fit:
         best = min(fit, key=lambda o: _more(claim, o))
         told = f"undecided at {fit[0].measurement.estimate.samples} samples"

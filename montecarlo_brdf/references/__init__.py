@@ -18,7 +18,6 @@ machinery:
                                      panels must end
     _ggx                             albedo of GGX as an integral over one variable
     _irradiance                      closed forms under skies
-    _sky                             the radiance of any f given as a function, under any sky
 
 No file imports anything else of the package, and numpy and scipy are imported only when a function
 needs them.

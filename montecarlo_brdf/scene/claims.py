@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import furnace
+from montecarlo_brdf.checks._truth import TARGET, as_measurement
 from montecarlo_brdf.compile.bind import hole, plain
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.plan import Plan
@@ -40,6 +41,7 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 F: Callable[..., float] = hole()
 Measure = Callable[[Plan], list[Measurement]]  # one measurement per channel
 
+FINEST = 1e-12  # relative error that is asked of a quadrature at most
 ROUNDING = 1e-9  # relative: f of large exponents in two orders of evaluation
 PAIRS = tuple(
     itertools.combinations([from_degrees(11.0 + 15.0 * k, 67.0 * k) for k in range(6)], 2)
@@ -55,9 +57,29 @@ def claims(scene: Scene, plan: ScenePlan, tolerance: float | None = None) -> Ite
             if lone := _furnace(plan, evaluated, k, tolerance):
                 yield replace(lone.agreement, quantity="L_o", where=where)
                 continue
-            expected = truth.reference(plan.scene, from_degrees(*view), k)
-            channel = functools.partial(_channel, measure, k)
-            yield _equal("L_o", where, expected, tolerance, channel)
+            yield _agreement(scene, plan, view, k, tolerance, measure)
+
+
+def _agreement(
+    scene: Scene, plan: ScenePlan, view: Angles, k: int, tolerance: float | None, measure: Measure
+) -> MeanClaim:
+    """L_o of a channel equals its truth; a quadrature is asked where samples leave that open, and
+    another one before one is believed."""
+    fine = TARGET / AGREEMENT_TOLERANCE * (AGREEMENT_TOLERANCE if tolerance is None else tolerance)
+    target = max(FINEST, fine)
+    expected = functools.partial(truth.reference, plan.scene, from_degrees(*view), k)
+
+    def afresh(seed: int) -> Reference:
+        return expected(truth.Quadrature(1 + seed, target))
+
+    def fallback(seed: int) -> Measurement:
+        found = expected(truth.Quadrature(1 + seed, target, alone=True))
+        return as_measurement(found.value, found.error)
+
+    known = expected(truth.Quadrature(target=target))
+    channel = functools.partial(_channel, measure, k)
+    claim = _equal("L_o", place(scene, view, k), known, tolerance, channel)
+    return replace(claim, fallback=fallback, afresh=afresh)
 
 
 def _equal(
@@ -157,13 +179,11 @@ def _times(factor: float, claim: MeanClaim) -> MeanClaim:
     if factor == 1.0:
         return claim
     scale = factor if claim.bound is Bound.EQUAL else 1.0
-    expected, last = claim.expected, claim.fallback
-    if expected is not None:
-        error = expected.error * scale
-        expected = expected._replace(value=expected.value * scale, error=error)
+    last, afresh = claim.fallback, claim.afresh
     return replace(
         claim,
-        expected=expected,
+        expected=claim.expected and claim.expected.times(scale),
+        afresh=(lambda seed: (r := afresh(seed)) and r.times(scale)) if afresh else None,
         tolerance=claim.tolerance * scale,
         measure=lambda plan: [m.times(factor) for m in claim.measure(plan)],
         fallback=(lambda seed: last(seed).times(factor)) if last else None,

@@ -165,7 +165,7 @@ def reason_unfit(
     if not math.isfinite(e.mean) or skies.below_horizon(shape):
         return None
     if e.mean == 0.0 and not e.largest:
-        return f"no sample of {e.samples} met light" if work.method is Method.OWN else None
+        return f"no sample of {e.samples} met light"
     unfit = trust.few_carry(work.method, e, e.second_moment) or _hidden(work, e, p, shape, wo)
     return unfit.reason if unfit else None
 

@@ -10,8 +10,9 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from montecarlo_brdf.checks._truth import TARGET, probes
 from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.judge.claim import Kind, Reference
 from montecarlo_brdf.model import Model, ParameterSet
@@ -21,21 +22,35 @@ from montecarlo_brdf.scene.scene import ORIGIN, Scene
 from montecarlo_brdf.scene.surface import ignores_directions
 from montecarlo_brdf.scene.texels import Image
 from montecarlo_brdf.truth import true_albedo
-from montecarlo_brdf.vectors import Vec, mirrored
+from montecarlo_brdf.vectors import Vec
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from montecarlo_brdf.estimate.quadrature import Integral
+    from montecarlo_brdf.estimate.regions import Chart
+
     Array = NDArray[np.float64]
     OfArray = Callable[[Array], Array]
 
-UNKNOWN = 0.002  # width of a lobe that a model does not tell: looked for, never relied on
 #: the last of several kinds is that of their sum
 ORDER = (Kind.CLOSED_FORM, Kind.DECLARED, Kind.INDEPENDENT, Kind.SAME_F)
 
 
-def reference(scene: Scene, wo: Vec, channel: int) -> Reference:
+class Quadrature(NamedTuple):
+    """How f is integrated where that is asked for."""
+
+    seed: int = 0  # another one is another quadrature
+    target: float = TARGET  # relative error
+    alone: bool = False  # also where a closed form is known
+
+
+USUAL = Quadrature()
+
+def reference(
+    scene: Scene, wo: Vec, channel: int, how: Quadrature = USUAL
+) -> Reference:
     """The expected L_o of one channel."""
     parts = [Reference(scene.emission[channel], 0.0, Kind.CLOSED_FORM, "emission")]
     for lobe in scene.surface.lobes:  # type: ignore[union-attr]
@@ -44,17 +59,13 @@ def reference(scene: Scene, wo: Vec, channel: int) -> Reference:
             continue
         found = [direct(scene, lobe.model, p, wo, channel)]
         if scene.sky is not None and scene.sky.scales[channel]:
-            under = _under(scene.sky, lobe.model, p, wo, channel)
-            found.append(_scaled(under, scene.sky.scales[channel]))
+            under = _under(scene.sky, lobe.model, p, wo, channel, how)
+            found.append(under.times(scene.sky.scales[channel]))
         if ignores_directions(lobe.model):
-            albedo = _scaled(constant_f(lobe.model, p, math.pi), scene.ambient[channel])
+            albedo = constant_f(lobe.model, p, math.pi).times(scene.ambient[channel])
             found.append(albedo._replace(source="ambient"))
-        parts += [_scaled(r, weight) for r in found]
+        parts += [r.times(weight) for r in found]
     return _sum([r for r in parts if r.value != 0.0 or r.error != 0.0] or parts[:1])
-
-
-def _scaled(r: Reference, factor: float) -> Reference:
-    return r._replace(value=factor * r.value, error=abs(factor) * r.error)
 
 
 def _sum(parts: list[Reference]) -> Reference:
@@ -87,9 +98,11 @@ def constant_f(model: Model, p: ParameterSet, irradiance: float) -> Reference:
     return Reference(value, 4e-15 * abs(value), Kind.CLOSED_FORM, "f E")
 
 
-def _under(sky: skies.Sky, model: Model, p: ParameterSet, wo: Vec, channel: int) -> Reference:
+def _under(
+    sky: skies.Sky, model: Model, p: ParameterSet, wo: Vec, channel: int, how: Quadrature
+) -> Reference:
     shape = sky.shapes[channel]
-    if ignores_directions(model):
+    if ignores_directions(model) and not how.alone:
         found = constant_f(model, p, irradiance(sky, channel))
         # the area of a cap at the horizon is a difference of terms as large as its sine
         terms = (
@@ -97,7 +110,7 @@ def _under(sky: skies.Sky, model: Model, p: ParameterSet, wo: Vec, channel: int)
         )
         error = found.error + constant_f(model, p, 1e-15 * terms).value
         return found._replace(error=error, source=f"E under {type(shape).__name__} times f")
-    return _of_shape(model, p, shape, wo)
+    return _of_shape(model, p, shape, wo, how)
 
 
 def irradiance(sky: skies.Sky, channel: int) -> float:
@@ -122,17 +135,27 @@ def irradiance(sky: skies.Sky, channel: int) -> float:
 
 
 @functools.lru_cache(maxsize=4096)
-def _of_shape(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Reference:
+def _of_shape(
+    model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec, how: Quadrature
+) -> Reference:
     """A lobe under a sky of unit scale."""
-    known = _closed(model, p, shape, wo)
+    known = None if how.alone else _known(model, p, shape, wo)
     if known is not None:
         return known
-    if isinstance(shape, skies.Constant) and model.built_in:
-        truth = _albedo(model, p, wo)
-        if truth:
-            return Reference(*truth)
-    value, error = _quadrature(model, p, shape, wo)
+    value, error = _quadrature(model, p, shape, wo, how)
     return Reference(value, error, Kind.SAME_F, "adaptive quadrature")
+
+
+def _known(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Reference | None:
+    """A truth that is no quadrature of f."""
+    if not model.built_in:
+        return None
+    truth = None
+    if isinstance(shape, skies.Constant):
+        truth = _albedo(model, p, wo)
+    elif isinstance(shape, skies.Cosine) and shape.axis == (0.0, 0.0, 1.0):
+        truth = _irradiance.cosine_sky(model.name, wo[2], shape.exponent, **p._asdict())
+    return Reference.of(*truth) if truth else None
 
 
 def _albedo(model: Model, p: ParameterSet, wo: Vec) -> Any:
@@ -140,48 +163,37 @@ def _albedo(model: Model, p: ParameterSet, wo: Vec) -> Any:
     return true_albedo(model.name, wo[2], **p._asdict(), **model.picks, **turned)
 
 
-def _closed(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> Reference | None:
-    if isinstance(shape, skies.Cosine) and shape.axis == (0.0, 0.0, 1.0) and model.built_in:
-        truth = _irradiance.cosine_sky(model.name, wo[2], shape.exponent, **p._asdict())
-        return Reference.of(*truth) if truth else None
-    return None
+def _quadrature(
+    model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec, how: Quadrature
+) -> Integral:
+    from montecarlo_brdf.estimate.quadrature import integrate, star
+
+    f, sky = Pointwise(model, p).f, _array_sky(shape)
+    seen = probes(model, p, wo, seed=how.seed)
+    if skies.concentrated(shape):
+        seen = (*seen, star(_brightest(skies.axis_of(shape))))
+    return integrate(
+        lambda w: f(wo, w) * sky(w) * w[:, 2], _chart(shape, wo), how.target, seen, how.seed
+    )
 
 
-def _quadrature(model: Model, p: ParameterSet, shape: skies.Shape, wo: Vec) -> tuple[float, float]:
-    import numpy as np
+def _chart(shape: skies.Shape, wo: Vec) -> Chart:
+    """Coordinates of the directions from which light comes."""
+    from montecarlo_brdf.estimate import regions
 
-    from montecarlo_brdf.checks import _truth
-    from montecarlo_brdf.estimate.quadrature import integrate
-    from montecarlo_brdf.references import _sky
-
-    at = Pointwise(model, p)
-    sky = _array_sky(shape)
-
-    def g(wi: Array) -> Array:
-        return at.f(wo, wi) * sky(wi)
-
-    kind, width = (model.lobe[0], float(model.lobe[1](p))) if model.lobe else (None, UNKNOWN)
+    if isinstance(shape, skies.Cap):
+        return regions.Around(shape.axis, 2.0 * math.asin(math.sqrt(min(1.0, 0.5 * shape.depth))))
     if isinstance(shape, Image):
-        return _texels(g, shape)
-    if isinstance(shape, (skies.Cap, skies.Cosine)):
-        whole = isinstance(shape, skies.Cosine)
-        depth = 1.0 if isinstance(shape, skies.Cosine) else shape.depth
-        reach = 2.0 * math.asin(math.sqrt(min(1.0, 0.5 * depth)))
-        if not (whole and shape.axis == (0.0, 0.0, 1.0)):
-            region = _sky.around(shape.axis, reach, mirrored(wo), width)
-            return _sky.adaptive(g, region)
-    if kind == "half vector" and model.isotropic:
-        return _sky.half_vector(g, wo, width)
-    if kind:
-        return _sky.adaptive(g, _sky.around(mirrored(wo), math.pi, mirrored(wo), width))
-    if not model.built_in:  # may have a lobe that it does not tell of
-        found = integrate(
-            lambda w: g(w) * w[:, 2],
-            _truth.coordinates(model, p, np.array(wo)),
-            probes=_truth.probes(model, p, np.array(wo)),
-        )
-        return found.value, found.error
-    return _sky.adaptive(g, _sky.hemisphere(wo, width))
+        return regions.Texels(int(shape.height), int(shape.width))
+    return regions.Coordinates(wo)
+
+
+def _brightest(axis: Vec) -> Vec:
+    """The direction nearest to an axis that is not below the horizon."""
+    if axis[2] >= 0.0:
+        return axis
+    sine = math.hypot(axis[0], axis[1])
+    return (axis[0] / sine, axis[1] / sine, 0.0) if sine > 0.0 else (1.0, 0.0, 0.0)
 
 
 def _array_sky(shape: skies.Shape) -> OfArray:
@@ -190,17 +202,25 @@ def _array_sky(shape: skies.Shape) -> OfArray:
 
     if isinstance(shape, skies.Cosine):
         return lambda w: np.maximum(0.0, w @ np.array(shape.axis)) ** shape.exponent
-    if isinstance(shape, (skies.Cap, skies.Constant, Image)):
+    if isinstance(shape, (skies.Cap, skies.Constant)):
         return lambda w: np.ones(len(w))  # the chart ends where the cap does
+    if isinstance(shape, Image):
+        return functools.partial(_texels, _texel_values(shape))
     function: Callable[..., Any] = skies.FUNCTIONS[type(shape)].radiance  # of arrays too
     return lambda w: function(tuple(w.T), shape)
 
 
-def _texels(g: OfArray, shape: Image) -> tuple[float, float]:
-    """Sum over texels of L times the integral of f cos over the texel, by two Gauss rules."""
-    from montecarlo_brdf.references import _sky
+def _texels(values: Array, w: Array) -> Array:
+    """Of constant texels, zenith first, azimuth from -pi."""
+    import numpy as np
 
-    return _sky.texels(g, _texel_values(shape))
+    height, width = values.shape
+    angle = np.arctan2(np.hypot(w[:, 0], w[:, 1]), w[:, 2])
+    turn = np.arctan2(w[:, 1], w[:, 0])
+    row = np.minimum((angle * (height / np.pi)).astype(int), height - 1)
+    column = np.minimum(((turn + np.pi) * (width / (2.0 * np.pi))).astype(int), width - 1)
+    found: Array = values[row, column]
+    return found
 
 
 def _texel_values(shape: Image) -> Array:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf.cases.case import Case, search_range, searched
 from montecarlo_brdf.checks import equality
-from montecarlo_brdf.checks._truth import quadrature
+from montecarlo_brdf.checks._truth import confirmed
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.estimate.probe import number_from
@@ -100,7 +100,7 @@ def fits(case: Case, other: Model, q: NamedTuple, tolerance: float) -> Iterator[
     """The declared albedo is the other's A."""
     for theta in case.theta_o_deg:
         wo = from_degrees(theta, case.phi_o_deg)
-        value, error = quadrature(other, channels(q)[0], wo)
+        value, error = confirmed(other, channels(q)[0], wo)
         yield ExactClaim(
             "albedo()", case.where(theta_o_deg=theta), Bound.EQUAL,
             Reference(value, error, Kind.OTHER_MODEL, f"A of {other.name}"), tolerance,
@@ -139,11 +139,11 @@ def _albedo(
     channel: dict[str, int],
 ) -> ExactClaim:  # fmt: skip
     fixed = from_degrees(theta, case.phi_o_deg)
-    value, error = quadrature(other, pair[1], fixed, reverse)
+    value, error = confirmed(other, pair[1], fixed, reverse)
     place = {f"theta_{'i' if reverse else 'o'}_deg": theta, **channel}
     return ExactClaim(
         "R" if reverse else "A", case.where(**place), Bound.EQUAL,
         Reference(value, error, Kind.OTHER_MODEL, other.name),
         case.tolerated(AGREEMENT_TOLERANCE) * abs(value),
-        lambda: Exact(*quadrature(case.model, pair[0], fixed, reverse)),
+        lambda: Exact(*confirmed(case.model, pair[0], fixed, reverse)),
     )  # fmt: skip

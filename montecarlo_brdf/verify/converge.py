@@ -54,6 +54,7 @@ RANDOMISATIONS_INDEPENDENT = 256
 FIRST, CONSTANT = 4, 1e-13  # log2 of the fewest samples; an error below that is rounding
 USABLE = 0.1  # relative error above which a lobe is not yet resolved
 USABLE_INDEPENDENT = 1.0  # independent points have the same slope at every N
+FINE = 1e-11  # relative error of a quadrature that errors are measured against
 FEWEST = 4  # levels that a fit needs
 CLEAR = 10.0  # times the reference's own error, which then bends log2(error) by 0.14 at most
 LEAST = 0.05  # relative uncertainty of an error: no level decides a slope alone
@@ -122,7 +123,8 @@ def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator
 def reference_of(case: Case) -> Reference:
     """The reference; for a model without one, an adaptive estimate with its own error bar."""
     (theta,) = case.theta_o_deg
-    found = _truth.albedo(case.model, case.one, theta, case.phi_o_deg)
+    place = case.model, case.one, theta, case.phi_o_deg
+    found = _truth.independent(*place) or _truth.same_f(*place, target=FINE)
     if found is None or not found.value:
         e = directional_albedo(
             case.model, case.one, theta, phi_o_deg=case.phi_o_deg, target_error=ESTIMATED
