@@ -16,7 +16,7 @@ import montecarlo_brdf
 PACKAGE = Path(montecarlo_brdf.__file__).parent
 TABLE = PACKAGE.parent / "docs" / "statistics.md"
 FOLDERS = ("checks", "cases", "judge", "stability", "verify")
-ESTIMATE = ("adaptive", "ascent", "ends", "plan", "trust")
+ESTIMATE = ("adaptive", "ascent", "ends", "plan", "quadrature", "trust")
 FILES = ("statistics", *(f"estimate/{name}" for name in ESTIMATE))
 HINTS = {"checks/_hints", "judge/hint", "verify/bench", "verify/failure"}  # decide nothing
 #: where numbers stand in a kernel's rows
