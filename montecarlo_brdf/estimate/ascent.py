@@ -146,7 +146,7 @@ class Method(NamedTuple):
     """A sampler or chart, a point set, and why they were picked."""
 
     sampler: Sampler
-    points: str
+    points: PointSet
     why: str
 
 

@@ -14,6 +14,7 @@ from montecarlo_brdf.estimate.plan import (
     Choice,
     Plan,
     check_method,
+    check_points,
     check_subject,
     check_theta,
 )
@@ -64,7 +65,7 @@ def directional_albedo(
         return [directional_albedo(model, p, theta, **rest) for theta in theta_o_deg]
     check_subject(model, p)
     chosen = check_method(method, target_error)
-    plan = Plan(points, samples, replicates, seed, threads, target_error, chosen)
+    plan = Plan(check_points(points), samples, replicates, seed, threads, target_error, chosen)
     wo = from_degrees(check_theta(theta_o_deg), phi_o_deg)
     if target_error is None and chosen is Choice.GIVEN:
         return _one(model, p, Quantity.ALBEDO, wo, sampler, plan)
@@ -98,7 +99,7 @@ def reverse_albedo(
     ModelError if the model does not compile or raises.
     """
     check_subject(model, p)
-    plan = Plan(points, samples, replicates, seed, threads)
+    plan = Plan(check_points(points), samples, replicates, seed, threads)
     wi = from_degrees(check_theta(theta_i_deg, "theta_i_deg"), phi_i_deg)
     return _one(model, p, Quantity.REVERSE, wi, sampler, plan)
 
@@ -125,7 +126,7 @@ def bihemispherical_albedo(
     ModelError if the model does not compile or raises.
     """
     check_subject(model, p)
-    plan = Plan(points, samples, replicates, seed, threads)
+    plan = Plan(check_points(points), samples, replicates, seed, threads)
     return _one(model, p, Quantity.BIHEMISPHERICAL, (0.0, 0.0, 1.0), sampler, plan)
 
 

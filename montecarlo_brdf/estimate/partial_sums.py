@@ -12,7 +12,7 @@ import hashlib
 import json
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.statistics import Moments
@@ -25,13 +25,6 @@ EVERY = 10.0  # seconds between two writes
 Stacks = list[list[list[tuple[int, Moments]]]]  # [result][replicate]: (rank, moments)
 
 
-class Begun(NamedTuple):
-    """A job of which some calls are done."""
-
-    calls: int
-    stacks: Stacks
-
-
 class PartialSums:
     """The partial sums of the jobs of a run; `save` is called with the file's new content."""
 
@@ -41,13 +34,13 @@ class PartialSums:
         self._jobs: dict[str, Any] = _read(content) if content else {}
         self._written = time.monotonic()
 
-    def begun(self, job: Job) -> Begun | None:
-        """What is known of a job."""
+    def begun(self, job: Job) -> tuple[int, Stacks] | None:
+        """How many calls of a job are done, and the states that they have merged into."""
         found = self._jobs.get(digest(job))
         if found is None:
             return None
         calls, stacks = found
-        return Begun(calls, [[[(k, Moments(*m)) for k, m in s] for s in row] for row in stacks])
+        return calls, [[[(k, Moments(*m)) for k, m in s] for s in row] for row in stacks]
 
     def keep(self, job: Job, calls: int, stacks: Stacks) -> None:
         """Remember where a job stands; from time to time, write it down."""

@@ -31,7 +31,7 @@ class Choice(StrEnum):
 class Plan(NamedTuple):
     """How to sample."""
 
-    points: str = "sobol"
+    points: PointSet = PointSet.SOBOL
     samples: int = 1 << 16
     replicates: int = REPLICATES
     seed: int = 0

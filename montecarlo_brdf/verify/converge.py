@@ -194,7 +194,8 @@ class Curve(NamedTuple):
     def level(self, plan: Plan, n: int) -> Level:
         """The errors at N = n."""
         case, replicates = self.case, randomisations(self.points)
-        many = plan._replace(points=self.points, samples=n * replicates, replicates=replicates)
+        many = plan._replace(samples=n * replicates, replicates=replicates)
+        many = many._replace(points=PointSet(self.points))
         means = [integrand(case.model, Quantity.ALBEDO, self.sampler)]
         # a stream of its own per N: errors at different N are independent, as the fit assumes
         stream = (NAME, self.sampler, n)

@@ -71,7 +71,7 @@ class Settings:
     def plan(self) -> Plan:
         """How an estimate is sampled."""
         return Plan(
-            points=self.points, samples=self.samples, seed=self.seed,
+            points=check_points(self.points), samples=self.samples, seed=self.seed,
             threads=all_threads() if self.threads is None else self.threads,
             target_error=self.target_error, method=check_method(self.method, self.target_error),
             sums=self.sums, effort=self.effort,
