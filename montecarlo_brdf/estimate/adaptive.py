@@ -39,12 +39,19 @@ PROBING = 4  # replicates of the look that tells whether a method suits
 
 
 class Outcome(NamedTuple):
-    """Where looking ended: the states of the kernel, and why it ended there."""
+    """Where looking with a method ended: the states of the kernel, and how far it got."""
 
+    setting: Setting
     states: list[float]
-    reached: bool
-    complaint: str
     error: float  # largest relative half-width
+    reached: bool
+    misfit: str  # why the method does not fit, or nothing
+
+    @property
+    def complaint(self) -> str:
+        """Why it did not get there."""
+        told = f"does not fit: {self.misfit}" if self.misfit else f"only reached {self.error:.1e}"
+        return f"{self.setting.method.sampler} x {self.setting.method.points} {told}"
 
 
 def albedo(
@@ -71,21 +78,16 @@ def _until(
     model: Model, p: ParameterSet, wo: Vec, plan: Plan, picked: Method | None
 ) -> tuple[list[Estimate], bool]:
     """Try methods until one reaches the target; the last word is the last one's."""
-    tried: list[tuple[Setting, Outcome]] = []
+    tried: list[Outcome] = []
     for method in (picked,) if picked else methods(model):
         setting = prepare(model, p, hash(type(p)), method)
-        tried.append((setting, climb(setting, wo, plan, final=picked is not None)))
-        if tried[-1][1].reached:
+        tried.append(climb(setting, wo, plan, final=picked is not None))
+        if tried[-1].reached:
             break
     # without success the method that fits and came closest
-    best, outcome = min(
-        tried, key=lambda t: (not t[1].reached, "not fit" in t[1].complaint, t[1].error)
-    )
-    others = tuple(
-        f"{s.method.sampler} x {s.method.points} {o.complaint}" for s, o in tried if o.complaint
-    )
-    story = told(best.method, others)
-    return estimates_of(outcome.states, best.channels, story), outcome.reached
+    best = min(tried, key=lambda t: (not t.reached, bool(t.misfit), t.error))
+    story = told(best.setting.method, tuple(t.complaint for t in tried if not t.reached))
+    return estimates_of(best.states, best.setting.channels, story), best.reached
 
 
 def suited(model: Model, p: ParameterSet, wo: Vec, plan: Plan) -> Method:
@@ -106,20 +108,19 @@ def climb(setting: Setting, wo: Vec, plan: Plan, final: bool) -> Outcome:
     while True:
         ascent.climb(plan)
         reached = ascent.reached()
-        complaint = "" if reached else _complaint(ascent, setting.probed)
-        if reached or ascent.ended() or (complaint and not final):
-            return Outcome(ascent.states, reached, complaint, ascent.errors[-1])
+        misfit = "" if reached else _misfit(ascent, setting.probed)
+        if reached or ascent.ended() or (misfit and not final):
+            return Outcome(setting, ascent.states, ascent.errors[-1], reached, misfit)
 
 
-def _complaint(ascent: Ascent, chart: bool) -> str:
-    """Why this method will not get there, or nothing."""
+def _misfit(ascent: Ascent, chart: bool) -> str:
+    """Why this method does not fit, or nothing."""
     errors = ascent.errors
     if ascent.need > LARGEST_NEED:
-        return f"does not fit: a probed value needs {ascent.need:.0e} samples"
-    if ascent.ended():
-        return f"only reached {errors[-1]:.1e}"
-    if chart and len(errors) > 4 and errors[-1] > STALLED * errors[-4]:
-        return "does not fit: its replicates do not converge"
+        return f"a probed value needs {ascent.need:.0e} samples"
+    stalled = len(errors) > 4 and errors[-1] > STALLED * errors[-4]
+    if chart and stalled and not ascent.ended():
+        return "its replicates do not converge"
     return ""
 
 
