@@ -130,7 +130,9 @@ def execute(arguments: list[str]) -> int:
     """Exit code of a command line; every error becomes one sentence on stderr."""
     forget_inputs()
     try:
-        code = commands.main(arguments, prog_name="brdf-check", standalone_mode=False)
+        code = commands.main(
+            arguments, prog_name="brdf-check", standalone_mode=False, obj=[*arguments]
+        )
         sys.stdout.flush()
     except (click.exceptions.Abort, KeyboardInterrupt):
         return _say("interrupted", INTERRUPTED)

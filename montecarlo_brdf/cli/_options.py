@@ -2,11 +2,13 @@
 that several commands share, as records, and what happens to a finished report."""
 from __future__ import annotations
 
+import contextlib
 import functools
 import itertools
 import math
 import os
 import secrets
+import shlex
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
@@ -22,6 +24,7 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.report import formats
 
 MOST_VALUES = 10_000
+MOST_SOURCE = 200_000  # bytes of a model's file that reports keep
 #: suffixes of files that are no reports
 OTHERS = (".py", ".toml", ".png", ".svg", ".pdf", ".npy", ".exr", ".hdr")
 MOST_DIGITS = 400  # of a number: more than any double has
@@ -326,8 +329,8 @@ def output_options(command: Command) -> Command:
                      help=f"What stdout gets: {', '.join(FORMATS)}. [--format junit]"),
         click.option("--export", "exports", type=FILE, metavar="FILE",
                      multiple=True,
-                     help="Write the report in the format of the suffix: .json, .xml (JUnit), .md, "
-                     ".csv; may be given more than once. [--export junit.xml]"),
+                     help="Write the report in the format of the suffix: .html, .json, .xml "
+                     "(JUnit), .md, .csv; may be given more than once. [--export junit.xml]"),
         click.option("--export-json", type=FILE, metavar="FILE",
                      help="Write the whole report. [--export-json report.json]"),
         click.option("--inconclusive", type=click.Choice([p.value for p in Policy]), default=None,
@@ -379,16 +382,20 @@ class Output(NamedTuple):
 
     def draws(self) -> bool:
         """Whether a picture will be drawn of the report, now or later."""
-        return bool(self.plot or "json" in self._files().values())
+        return bool(self.plot or {"json", "html"} & {self.form, *self._files().values()})
 
     def _files(self) -> dict[Path, str]:
         """What to write besides pictures: file -> format."""
-        known = formats.suffixes() if self.exports else {}
-        for path in self.exports:
-            if path.suffix not in known:
-                raise UserError(unknown(f"format for {path}: suffix", path.suffix, known))
-        found = {path: known[path.suffix] for path in self.exports}
+        found = {path: format_of(path) for path in self.exports}
         return {**found, **({self.export_json: "json"} if self.export_json else {})}
+
+
+def format_of(path: Path) -> str:
+    """The format that a suffix stands for."""
+    known = formats.suffixes()
+    if path.suffix not in known:
+        raise UserError(unknown(f"format for {path}: suffix", path.suffix, known))
+    return known[path.suffix]
 
 
 def check_suffix(path: Path, form: str) -> None:
@@ -413,6 +420,11 @@ def deliver(report: Report, output: Output) -> int:
         from montecarlo_brdf.report import pictures
 
         write_bytes(output.plot, pictures.drawn(report, pictures.kind_of(output.plot)))
+    if {"html", "json"} & {output.form, *output._files().values()}:
+        report.measured["sources"] = sources(report)
+    if "html" in {output.form, *output._files().values()}:
+        root = click.get_current_context().find_root()
+        report.measured["repeat"] = shlex.join(["brdf-check", *(root.obj or [])])
     for path, form in output._files().items():
         write_text(path, formats.render(report, form))
     from montecarlo_brdf.cli import _terminal
@@ -429,6 +441,17 @@ def deliver(report: Report, output: Output) -> int:
         click.echo(f"Error: {sentence}", err=True)
     undecided = report.verdict == Verdict.INCONCLUSIVE
     return policy.code if policy and undecided else report.exit_code
+
+
+def sources(report: Report) -> dict[str, str]:
+    """The files of the user's models, for pages that show them."""
+    files = dict.fromkeys(r.source["file"] for r in report.results if r.source)
+    found = {}
+    for name in files:
+        with contextlib.suppress(OSError):
+            content = Path(name).read_bytes()[:MOST_SOURCE]
+            found[name] = content.decode("utf-8", errors="replace")
+    return found
 
 
 def errors(report: Report) -> list[Finding]:

@@ -115,6 +115,7 @@ class Report:
     settings: dict[str, Any]
     results: list[Result]
     measured: dict[str, Any] = field(default_factory=dict)
+    versions: dict[str, str] | None = None  # of what made it, if that is not this process
 
     @property
     def verdict(self) -> Verdict:
@@ -136,7 +137,7 @@ class Report:
         """Plain data; `results` has nothing that changes between equal runs."""
         return {
             "schema": SCHEMA, "command": self.command, "verdict": self.verdict,
-            "versions": versions(), "settings": self.settings,
+            "versions": self.versions or versions(), "settings": self.settings,
             "results": [_result(r) for r in self.results], "measured": self.measured,
         }  # fmt: skip
 

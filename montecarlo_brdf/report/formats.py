@@ -10,7 +10,8 @@ import importlib
 from montecarlo_brdf.judge.finding import Report
 
 #: name -> suffix of its files; none for what is only for a terminal
-SUFFIXES = {"csv": ".csv", "github": "", "json": ".json", "junit": ".xml", "markdown": ".md"}
+SUFFIXES = {"csv": ".csv", "github": "", "html": ".html", "json": ".json", "junit": ".xml"}
+SUFFIXES |= {"markdown": ".md"}
 
 
 def suffixes() -> dict[str, str]:

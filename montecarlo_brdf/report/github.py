@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import Any
 
 from montecarlo_brdf.judge.finding import SEVERITY, Finding, Report, Result, Verdict
-from montecarlo_brdf.report.text import case, explanation, most_telling, statement, tally
+from montecarlo_brdf.report.text import case, explanation, line_of, most_telling, statement, tally
 
 #: what is annotated, and how
 LEVELS = {Verdict.ERROR: "error", Verdict.FAIL: "error"}
@@ -42,17 +42,9 @@ def _of_note(findings: Sequence[Finding]) -> list[Finding]:
     return [f for f in findings if f.verdict in LEVELS]
 
 
-#: checks that are about another function than f
-ABOUT = {"pdf": "pdf", "sampling": "sample"}
-
-
 def _accused(result: Result) -> dict[str, Any]:
     """File and line of the function that a check is about."""
-    if not result.source:
-        return {}
-    lines = result.source.get("functions", {})
-    line = lines.get(ABOUT.get(result.check, "f"), result.source["line"])
-    return {"file": result.source["file"], "line": line}
+    return {"file": result.source["file"], "line": line_of(result)} if result.source else {}
 
 
 def _data(text: str) -> str:

@@ -42,7 +42,9 @@ def read_report(path: Path) -> Report:
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         sentence = f"{path} is not a report of brdf-check: its results are damaged"
         raise UserError(sentence) from error
-    return Report(str(data.get("command")), settings, results, measured)
+    versions = data.get("versions")
+    known = {str(k): str(v) for k, v in versions.items()} if isinstance(versions, dict) else {}
+    return Report(str(data.get("command")), settings, results, measured, known)
 
 
 def _result(data: dict[str, Any]) -> Result:

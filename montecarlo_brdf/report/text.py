@@ -9,6 +9,7 @@ import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from enum import StrEnum
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.judge.finding import SEVERITY, Bound, Finding, Report, Result, Verdict, worst
@@ -87,6 +88,16 @@ def tally(findings: Iterable[Finding]) -> str:
     return ", ".join(f"{counts[v]} {v}" for v in ORDER if counts[v])
 
 
+#: checks that are about another function than f
+ABOUT = {"pdf": "pdf", "sampling": "sample"}
+
+
+def line_of(result: Result) -> int:
+    """The line of the function that a check of a user's file is about."""
+    lines = result.source.get("functions", {})
+    return int(lines.get(ABOUT.get(result.check, "f"), result.source["line"]))
+
+
 def origin(result: Result) -> list[str]:
     """'f: my_brdf.py:12', where it is known."""
     return [f"f: {result.source['file']}:{result.source['line']}"] if result.source else []
@@ -136,13 +147,33 @@ NUMBERS = {
 PRECISION = (*(Column(name, fold, right=True) for name, fold in NUMBERS.items()), VERDICT)
 
 
+class Kind(StrEnum):
+    """What a sentence below a table is."""
+
+    HINT = "hint"
+    NOTE = "note"
+    REPRODUCE = "repro"
+    OTHER = ""
+
+
+class Sentence(NamedTuple):
+    """What is to say about a table."""
+
+    kind: Kind
+    text: str
+
+    def __str__(self) -> str:
+        return f"  {self.kind:5} {self.text}" if self.kind else f"  {self.text}"
+
+
 class Section(NamedTuple):
-    """A table with its title, and the sentences below it."""
+    """A table with its title, the sentences below it, and the results that it is made of."""
 
     title: str
     columns: Sequence[Column]
     rows: list[Row]
-    sentences: Iterable[str]
+    sentences: Iterable[Sentence]
+    results: Sequence[Result]
 
 
 def render(
@@ -150,28 +181,30 @@ def render(
 ) -> str:
     """A report as text. Tables keep to the width; a sentence is one line, however long."""
     lines = []
-    for section in _sections(report, verbose):
+    for section in sections(report, verbose):
         lines.append(painted(section.title, Style.BOLD, colour))
         lines += table(section.columns, section.rows, width, colour)
-        lines += dict.fromkeys(section.sentences)
+        lines += dict.fromkeys(map(str, section.sentences))
     return "\n".join([*lines, summary(report, colour)]) + "\n"
 
 
-def _sections(report: Report, verbose: bool) -> Iterator[Section]:
+def sections(report: Report, verbose: bool = False) -> Iterator[Section]:
+    """A table for each model or check."""
     if report.command == "stress":
         for result, precisions in zip(report.results, report.measured["precisions"], strict=True):
             rows = [_precision(result, measured) for measured in precisions]
-            yield Section(title(result), PRECISION, rows, _broken(result))
+            yield Section(title(result), PRECISION, rows, _broken(result), [result])
     elif report.command == "run" and not verbose:
         for group in grouped(report.results):
             rows = [_check(result) for result in group if result.findings]
-            yield Section(case(group[0]), CHECK, rows, _of_checks(group))
+            yield Section(case(group[0]), CHECK, rows, _of_checks(group), group)
     else:
         for result in report.results:
             places = list(dict.fromkeys(k for f in result.findings for k in f.where))
             columns = [Column(SYMBOLS.get(k, k), fold=2, right=True) for k in places]
             rows = [_finding(f, places) for f in result.findings]
-            yield Section(title(result), [*columns, *FINDING], rows, _attention(result, verbose))
+            told = _attention(result, verbose)
+            yield Section(title(result), [*columns, *FINDING], rows, told, [result])
 
 
 def title(result: Result) -> str:
@@ -227,49 +260,49 @@ def _finding(f: Finding, places: list[str]) -> Row:
     )  # fmt: skip
 
 
-def _attention(result: Result, verbose: bool) -> Iterator[str]:
+def _attention(result: Result, verbose: bool) -> Iterator[Sentence]:
     """Estimators, hints, reasons, reproduction commands."""
     for f in result.findings:
         for row in f.estimators if verbose else ():
             number = replace(f, value=row["value"], stderr=row["stderr"]).number
             at = f"{place(f) or 'it'} {f.quantity}: {row['estimator']}"
-            yield f"  {at} {number} {row['verdict']}"
-        for kind, sentence in (("note", f.note), ("hint", f.hint)):
+            yield Sentence(Kind.OTHER, f"{at} {number} {row['verdict']}")
+        for kind, sentence in ((Kind.NOTE, f.note), (Kind.HINT, f.hint)):
             if sentence:
-                yield f"  {kind:5} {sentence}"
+                yield Sentence(kind, sentence)
         if f.reproduce:
-            yield f"  repro {f.reproduce}"
+            yield Sentence(Kind.REPRODUCE, f.reproduce)
     for name, reason, where in _not_used(result):
-        yield f"  {name} sampling not used at {where}: {reason}"
+        yield Sentence(Kind.OTHER, f"{name} sampling not used at {where}: {reason}")
 
 
 class _Remark(NamedTuple):
     """A sentence, and which findings of which check it is about."""
 
-    kind: str  # hint or note
+    kind: Kind  # a hint or a note
     sentence: str
     check: str
     place: str
 
 
-def _of_checks(group: Sequence[Result]) -> Iterator[str]:
+def _of_checks(group: Sequence[Result]) -> Iterator[Sentence]:
     """What is to say about the checks of one model: a sentence that several findings share once,
     with whom it is about; for each check that failed one command that repeats it."""
     remarks = [one for result in group for one in _remarks(result)]
-    for kind in ("hint", "note"):
+    for kind in (Kind.HINT, Kind.NOTE):
         told = [r for r in remarks if r.kind == kind]
         yield from map(_told, _alike(told).values())
     failed = {r.check: f.reproduce for r in group for f in reversed(r.findings) if f.reproduce}
-    yield from (f"  repro {command}" for command in failed.values())
+    yield from (Sentence(Kind.REPRODUCE, command) for command in failed.values())
 
 
 def _remarks(result: Result) -> Iterator[_Remark]:
     for f in result.findings:
-        for kind, sentence in (("hint", f.hint), ("note", f.note)):
+        for kind, sentence in ((Kind.HINT, f.hint), (Kind.NOTE, f.note)):
             if sentence:
                 yield _Remark(kind, sentence, result.check, place(f))
     for name, reason, where in _not_used(result):
-        yield _Remark("note", f"{name} sampling not used: {reason}", result.check, where)
+        yield _Remark(Kind.NOTE, f"{name} sampling not used: {reason}", result.check, where)
 
 
 #: numbers within a sentence: sentences that differ by them alone say the same
@@ -284,13 +317,14 @@ def _alike(remarks: Sequence[_Remark]) -> dict[str, list[_Remark]]:
     return found
 
 
-def _told(remarks: Sequence[_Remark]) -> str:
-    """'  hint  furnace, radiance: the factor 1/pi is missing (3 places)'."""
+def _told(remarks: Sequence[_Remark]) -> Sentence:
+    """'furnace, radiance: the factor 1/pi is missing (3 places)'."""
     checks = dict.fromkeys(r.check for r in remarks)
     places = [p for p in dict.fromkeys(r.place for r in remarks) if p]
     where = f" ({len(places)} places)" if len(places) > 1 else ""
-    at = f" at {places[0]}" if len(places) == 1 and remarks[0].kind == "hint" else ""
-    return f"  {remarks[0].kind:5} {', '.join(checks)}{at}: {remarks[0].sentence}{where}"
+    at = f" at {places[0]}" if len(places) == 1 and remarks[0].kind is Kind.HINT else ""
+    text = f"{', '.join(checks)}{at}: {remarks[0].sentence}{where}"
+    return Sentence(remarks[0].kind, text)
 
 
 def _not_used(result: Result) -> list[tuple[str, str, str]]:
@@ -321,12 +355,13 @@ def _precision(result: Result, measured: Mapping[str, Any]) -> Row:
     )  # fmt: skip
 
 
-def _broken(result: Result) -> Iterator[str]:
+def _broken(result: Result) -> Iterator[Sentence]:
     for f in result.findings:
         if f.verdict in (Verdict.FAIL, Verdict.KNOWN):
-            yield f"  {f.where['precision']}: {f.quantity} {f.value:.2g}: {f.note}"
+            text = f"{f.where['precision']}: {f.quantity} {f.value:.2g}: {f.note}"
+            yield Sentence(Kind.OTHER, text)
             if f.reproduce:
-                yield f"  repro {f.reproduce}"
+                yield Sentence(Kind.REPRODUCE, f.reproduce)
 
 
 def summary(report: Report, colour: bool = False) -> str:

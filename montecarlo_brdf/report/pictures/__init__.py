@@ -19,6 +19,10 @@ FIGURES = {"converge": "convergence", "furnace": "albedo"}
 FIGURES |= {"radiance": "radiance", "stress": "stability"}
 
 
+class CannotDraw(UserError):
+    """A report that there is no picture of."""
+
+
 def kind_of(path: Path) -> str:
     """ "png", "svg" or "pdf", or a UserError."""
     kind = path.suffix.lstrip(".").lower()
@@ -30,7 +34,7 @@ def kind_of(path: Path) -> str:
 def drawn(report: Report, kind: str) -> bytes:
     """The picture of a report as a PNG, SVG or PDF file."""
     if report.command not in FIGURES:
-        raise UserError(f"there is no picture for a report of {report.command!r}")
+        raise CannotDraw(f"there is no picture for a report of {report.command!r}")
     import matplotlib
 
     matplotlib.use("Agg")
@@ -38,7 +42,7 @@ def drawn(report: Report, kind: str) -> bytes:
     try:
         figure = module.figure(report)
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
-        raise UserError(f"the report cannot be drawn: {type(error).__name__} {error}") from error
+        raise CannotDraw(f"the report cannot be drawn: {type(error).__name__} {error}") from error
     return encoded(figure, kind)
 
 

@@ -39,6 +39,8 @@ def figure(report: Report) -> Figure:
     bottom.set_ylabel("|A - reference|")
     bottom.set_xlim(-2.0, 92.0)
     style.grid(top, bottom)
+    values = [f.value for r in report.results for f in r.findings if f.quantity == "A"]
+    style.say_what_is_not_finite(top, values)
     _explain(figure, top, bottom)
     return figure
 
@@ -56,6 +58,8 @@ def _explain(figure: Figure, *panels: Axes) -> None:
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
+    if not named:
+        return
     figure.legend([*named.values()], [*named], loc="outside lower center", ncols=3, fontsize=8)
 
 

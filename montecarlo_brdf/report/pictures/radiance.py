@@ -33,6 +33,10 @@ def figure(report: Report) -> Figure:
     bottom.set_ylabel("|L_o - truth|")
     bottom.set_title(f"points: error (0 is drawn at {style.SMALLEST:g}), lines: stderr", fontsize=9)
     style.grid(top, bottom)
+    values = [f.value for f in result.findings if f.quantity == "L_o"]
+    style.say_what_is_not_finite(top, values)
+    if not shown:
+        return figure
     # beside the panel: inside it a legend hides points, and below it needs none
     top.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0), title=KEY, title_fontsize=8)
     return figure

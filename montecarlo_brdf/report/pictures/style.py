@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.judge.finding import Finding
@@ -39,6 +39,15 @@ def panels(width: float) -> tuple[Figure, Axes, Axes]:
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
     bottom.set_xlabel(THETA_O)
     return figure, top, bottom
+
+
+def say_what_is_not_finite(axes: Axes, values: Sequence[float]) -> None:
+    """What is NaN or infinite has no place in a picture: say so in it."""
+    bad = sum(not math.isfinite(v) for v in values)
+    if bad:
+        words = "all values are" if bad == len(values) else f"{bad} of {len(values)} values are"
+        axes.text(0.02, 0.96, f"{words} NaN or infinite: not drawn", transform=axes.transAxes,
+                  va="top", color=VERMILION, fontsize=9)  # fmt: skip
 
 
 def grid(*panels: Axes) -> None:

@@ -1,0 +1,285 @@
+"""HTML: one file without a network, for somebody who has no terminal: verdict first, then a table
+for each model or check, pictures, the accused source, and the commands that repeat it."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from montecarlo_brdf.judge.finding import SEVERITY, Bound, Finding, Report, Result, Verdict, worst
+from montecarlo_brdf.report import pictures, text
+from montecarlo_brdf.report.columns import NO_BREAK, Column
+from montecarlo_brdf.report.pictures import inline
+
+if TYPE_CHECKING:
+    from jinja2 import Template
+
+TEMPLATES = Path(__file__).parent / "templates"
+MOST_ROWS = 200  # of a table: the worst of more
+MOST_DOTS = 150  # of a check in a picture
+MOST_LINES = 2000  # of a source
+MOST_DRAWN_FINDINGS = 400  # of a picture
+MOST_DRAWN = 40  # pictures of a page
+DECADES = 4  # each way from the tolerance, of the picture of margins
+WIDTH, LEFT, STEP = 640, 150, 24  # of that picture
+
+
+def render(report: Report) -> str:
+    """The page of one report."""
+    return page([report])
+
+
+def page(reports: Sequence[Report]) -> str:
+    """One page of several reports."""
+    drawn = iter(range(MOST_DRAWN))
+    chapters = [_chapter(report, k, drawn) for k, report in enumerate(reports)]
+    verdict = _whole(worst(r.verdict for r in reports))
+    models = dict.fromkeys(r.model for report in reports for r in report.results if r.model)
+    commands = dict.fromkeys(report.command for report in reports)
+    title = f"{', '.join(commands)}: {', '.join(models)}" if models else ", ".join(commands)
+    known = {"title": title, "verdict": verdict, "chapters": chapters}
+    return _template().render(many=len(reports) > 1, **known)
+
+
+@functools.cache
+def _template() -> Template:
+    import jinja2
+
+    loader = jinja2.FileSystemLoader(TEMPLATES)
+    made = jinja2.Environment(
+        loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )  # fmt: skip
+    return made.get_template("page.html")
+
+
+def _whole(verdict: Verdict) -> Verdict:
+    return Verdict.PASS if verdict in (Verdict.KNOWN, Verdict.SKIPPED) else verdict
+
+
+class Chapter(NamedTuple):
+    """One report."""
+
+    command: str
+    verdict: str
+    tally: str
+    summary: str
+    parts: list[Part]
+    facts: list[tuple[str, str]]
+    repeat: str  # the command line that made the report, if it is known
+
+
+class Part(NamedTuple):
+    """A table of a report with what belongs to it."""
+
+    anchor: str
+    title: str
+    verdict: str
+    hints: list[str]
+    notes: list[str]
+    commands: list[str]
+    table: Table
+    details: list[tuple[str, Table]]
+    margins: Margins | None
+    picture: str
+    caption: str
+    source: Source | None
+
+
+class Table(NamedTuple):
+    """Names of columns, rows of cells with the verdict of each, and how many rows are left out."""
+
+    caption: str
+    columns: list[Column]
+    rows: list[tuple[str, list[str]]]
+    left_out: int
+
+
+class Source(NamedTuple):
+    """The lines of a model's file; those that a failing check is about are marked."""
+
+    file: str
+    lines: list[tuple[int, str, str]]  # number, text, the checks that accuse it
+    left_out: int
+
+
+class Dot(NamedTuple):
+    """A finding in the picture of margins."""
+
+    x: float
+    y: float
+    verdict: str
+    label: str
+
+
+class Margins(NamedTuple):
+    """How near every finding came to its tolerance, on a log scale."""
+
+    height: int
+    limit: float
+    rows: list[tuple[float, str]]
+    ticks: list[tuple[float, str]]
+    dots: list[Dot]
+
+
+def _chapter(report: Report, k: int, drawn: Iterator[int]) -> Chapter:
+    findings = [f for r in report.results for f in r.findings]
+    parts = [
+        _part(report, section, f"part-{k}-{i}", drawn)
+        for i, section in enumerate(text.sections(report))
+    ]
+    return Chapter(
+        report.command, report.verdict, text.tally(findings) or "nothing was asked",
+        text.summary(report), parts, _facts(report), str(report.measured.get("repeat", "")),
+    )  # fmt: skip
+
+
+def _part(report: Report, section: text.Section, anchor: str, drawn: Iterator[int]) -> Part:
+    results = section.results
+    said = list(dict.fromkeys(section.sentences))
+    told = {kind: [s.text for s in said if s.kind is kind] for kind in text.Kind}
+    verdict = worst(r.verdict for r in results)
+    svg, caption = _picture(report, results, drawn)
+    return Part(
+        anchor, section.title, verdict, told[text.Kind.HINT],
+        told[text.Kind.NOTE] + told[text.Kind.OTHER], told[text.Kind.REPRODUCE],
+        _table(section.title, section),
+        _details(report, results), _margins(results), svg, caption, _source(report, results),
+    )  # fmt: skip
+
+
+def _table(caption: str, section: text.Section) -> Table:
+    """The worst rows in their order; a column without content is left out, and the verdict, which
+    stands last, comes second."""
+    columns, rows = section.columns, section.rows
+    last = len(columns) - 1
+    used = [k for k in (0, last, *range(1, last)) if any(row[k] for row in rows)]
+    severity = {str(v): k for k, v in enumerate(SEVERITY)}
+    known = [row[-1].lower() for row in rows]
+    order = sorted(range(len(rows)), key=lambda k: severity.get(known[k], len(severity)))
+    kept = sorted(order[:MOST_ROWS])
+    plain = [(known[k], [rows[k][c].replace(NO_BREAK, " ") for c in used]) for k in kept]
+    named = [columns[k]._replace(name=columns[k].name.replace(NO_BREAK, " ")) for k in used]
+    return Table(caption, named, plain, len(rows) - len(kept))
+
+
+def _details(report: Report, results: Sequence[Result]) -> list[tuple[str, Table]]:
+    """All findings of each check, where the table above has one row a check."""
+    if report.command != "run":
+        return []
+    found = []
+    for result in results:
+        single = Report("check", report.settings, [result])
+        for section in text.sections(single):
+            found.append((result.check, _table(f"{result.check} in full", section)))
+    return found
+
+
+def _picture(
+    report: Report, results: Sequence[Result], drawn: Iterator[int]
+) -> tuple[str, str]:
+    """An inline SVG and what it shows; nothing where nothing can be drawn."""
+    for command, some, caption in _drawable(report, results):
+        if next(drawn, None) is None:
+            return "", ""
+        one = Report(command, report.settings, list(map(_thinned, some)), report.measured)
+        try:
+            return inline.svg(pictures.drawn(one, "svg")), caption
+        except pictures.CannotDraw:
+            continue
+    return "", ""
+
+
+def _thinned(result: Result) -> Result:
+    """With findings that a picture has room for: the bad ones first, then every so many."""
+    if len(result.findings) <= MOST_DRAWN_FINDINGS:
+        return result
+    step = 2 * len(result.findings) // MOST_DRAWN_FINDINGS
+    bad = [k for k, f in enumerate(result.findings) if f.verdict in text.BAD]
+    kept = {*bad[: MOST_DRAWN_FINDINGS // 2], *range(0, len(result.findings), step)}
+    return replace(result, findings=[result.findings[k] for k in sorted(kept)])
+
+
+def _drawable(
+    report: Report, results: Sequence[Result]
+) -> Iterator[tuple[str, list[Result], str]]:
+    if report.command == "run":
+        some = [r for r in results if r.check == "furnace"]
+        if any(math.isfinite(f.value) for r in some for f in r.findings if f.quantity == "A"):
+            yield "furnace", some, "Albedo against the viewer's angle, and its error"
+    elif report.command in pictures.FIGURES and report.command != "stress":
+        yield report.command, list(results), f"The picture of {report.command}"
+
+
+def _margins(results: Sequence[Result]) -> Margins | None:
+    """Findings that have a tolerance, a row for each check or quantity."""
+    rows: dict[str, list[Finding]] = {}
+    several = len(results) > 1
+    for result in results:
+        for f in result.findings:
+            if f.tolerance and f.expected is not None:
+                rows.setdefault(result.check if several else f.quantity, []).append(f)
+    if not rows:
+        return None
+    names = [*rows][:MOST_DRAWN]
+    dots = [d for k, name in enumerate(names) for d in _dots(rows[name], 18 + STEP * k)]
+    unit = (WIDTH - LEFT - 20) / (2 * DECADES)
+    ticks = [(LEFT + unit * (d + DECADES), f"10^{d}" if d else "1") for d in range(-4, 5, 2)]
+    named = [(18.0 + STEP * k, name) for k, name in enumerate(names)]
+    return Margins(STEP * len(names) + 46, LEFT + unit * DECADES, named, ticks, dots)
+
+
+def _dots(findings: Sequence[Finding], y: float) -> list[Dot]:
+    ordered = sorted(findings, key=lambda f: SEVERITY.index(Verdict(f.verdict)))
+    return [
+        Dot(round(_across(f), 1), y, f.verdict, text.statement(f)) for f in ordered[:MOST_DOTS]
+    ][::-1]
+
+
+def _across(f: Finding) -> float:
+    """The place of a finding: its deviation in tolerances, by the logarithm; what is not finite
+    stands at the end."""
+    assert f.expected is not None and f.tolerance
+    over = f.value - f.expected
+    share = abs(over) if f.bound == Bound.EQUAL else over if f.bound == Bound.AT_MOST else -over
+    ratio = share / f.tolerance
+    decades = DECADES if math.isnan(ratio) else math.log10(max(ratio, 1e-9))
+    return LEFT + (WIDTH - LEFT - 20) * (min(max(decades, -DECADES), DECADES) / DECADES + 1) / 2
+
+
+def _source(report: Report, results: Sequence[Result]) -> Source | None:
+    where = next((r.source for r in results if r.source), None)
+    content = report.measured.get("sources", {}).get(where["file"]) if where else None
+    if where is None or not isinstance(content, str):
+        return None
+    accused: dict[int, list[str]] = {}
+    for result in results:
+        if result.verdict in text.BAD:
+            accused.setdefault(text.line_of(result), []).append(result.check)
+    lines = content.splitlines()
+    rows = [
+        (k, line, ", ".join(accused.get(k, []))) for k, line in enumerate(lines[:MOST_LINES], 1)
+    ]
+    return Source(where["file"], rows, max(0, len(lines) - MOST_LINES))
+
+
+def _facts(report: Report) -> list[tuple[str, str]]:
+    """Settings and versions, one a line."""
+    settings = {k: v for k, v in report.settings.items() if k != "plan"}
+    versions = report.to_dict()["versions"] if report.versions is None else report.versions
+    rows = [*settings.items(), *versions.items()]
+    if isinstance(seconds := report.measured.get("seconds"), (int, float)):
+        rows.append(("seconds", f"{seconds:.3g}"))
+    return [(str(k).replace("_", " "), _said(v)) for k, v in rows]
+
+
+def _said(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return ", ".join(f"{k}: {_said(v)}" for k, v in value.items()) or "-"
+    if isinstance(value, (list, tuple)):
+        return ", ".join(map(_said, value)) or "-"
+    return "-" if value is None else text.shown(value)

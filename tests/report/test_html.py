@@ -1,0 +1,186 @@
+"""The page: valid, of one file, escaped, small, and it opens without a complaint."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import shlex
+import shutil
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from conftest import Outcome
+
+from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+from montecarlo_brdf.report import formats, html
+from montecarlo_brdf.report.json import read_report
+
+html5lib = pytest.importorskip("html5lib")
+Command = Callable[..., Outcome]
+EVIL = "<script>alert(1)</script>.py"
+MISSING_PI = "from typing import NamedTuple\nclass Params(NamedTuple):\n    c: float = 0.5\n"
+MISSING_PI += "scales_with = 'c'\n\ndef f(wo, wi, p):\n    return p.c  # <b>&amp;</b>\n"
+
+
+def parsed(page: str) -> Any:
+    """The tree of a page; raises for anything that is not valid."""
+    return html5lib.HTMLParser(strict=True, namespaceHTMLElements=False).parse(page)
+
+
+def faults(page: str) -> list[str]:
+    """What a page must not have: references to elsewhere, ids used twice or that lead nowhere."""
+    tree = parsed(page)
+    ids = [e.get("id") for e in tree.iter() if e.get("id")]
+    links = [v for e in tree.iter() for k, v in e.attrib.items() if "href" in str(k) or k == "src"]
+    found = [f"id {i} twice" for i in {*ids} if ids.count(i) > 1]
+    found += [f"outside: {link}" for link in links if not link.startswith("#")]
+    found += [f"nowhere: {link}" for link in links if link[1:] not in ids]
+    style = "".join(e.text or "" for e in tree.iter("style"))
+    found += re.findall(r"url\([^#)][^)]*\)|@import[^;]*", style + page.replace("url(#", ""))
+    outside = re.findall(r"https?://[^\s\"'<]*", page)
+    return found + [o for o in outside if o]
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        '<!DOCTYPE html><title>x</title><p id="a"><p id="a">',
+        '<!DOCTYPE html><title>x</title><img src="x.png">',
+        '<!DOCTYPE html><title>x</title><a href="#b">x</a>',
+        '<!DOCTYPE html><title>x</title><a href="https://example.org">x</a>',
+    ],
+)
+def test_faults_are_seen(page: str) -> None:
+    assert faults(page)
+
+
+def test_what_is_no_html_is_seen() -> None:
+    with pytest.raises(Exception, match="."):
+        parsed("<!DOCTYPE html><title>x</title><p></div>")
+
+
+def many(count: int, verdict: Verdict = Verdict.PASS) -> list[Finding]:
+    numbers: dict[str, Any] = {"stderr": 1e-4, "expected": 1.0, "tolerance": 1e-3, "samples": 64}
+    return [
+        Finding("A", {"theta_o_deg": 0.01 * k}, verdict, value=1.0 + 1e-7 * k, **numbers)
+        for k in range(count)
+    ]
+
+
+def text_of(page: str) -> str:
+    return "".join(parsed(page).itertext())
+
+
+def test_everything_is_escaped() -> None:
+    evil = Finding(EVIL, {EVIL: EVIL}, Verdict.FAIL, note=EVIL, hint=EVIL, reproduce=EVIL)
+    source = {"file": EVIL, "line": 1}
+    result = Result(EVIL, {EVIL: EVIL}, EVIL, [evil, *many(3)], [], source)
+    for command in ("run", "furnace", EVIL):
+        report = Report(command, {EVIL: EVIL}, [result], {"sources": {EVIL: f"{EVIL}\n</style>"}})
+        page = formats.render(report, "html")
+        assert faults(page) == [] and page.count("<script>") == 1 and EVIL in text_of(page)
+
+
+@pytest.mark.parametrize("command", ["run", "furnace", "compare"])
+def test_ten_thousand_findings(command: str) -> None:
+    findings = [*many(9_999), *many(1, Verdict.FAIL)]
+    report = Report(command, {"seed": 0}, [Result("my.py", {"a": 0.5}, "furnace", findings)])
+    page = html.render(report)
+    assert faults(page) == [] and len(page) < 1_500_000
+    assert "9800 more rows" in page and "9999 pass, 1 fail" in page
+    assert page.index("fail") < page.index("more rows")
+
+
+def test_values_that_are_no_numbers() -> None:
+    odd = [Finding("A", {"theta_o_deg": 0.0}, Verdict.FAIL, value=v, stderr=math.nan, expected=1.0,
+                   tolerance=1e-3, samples=4) for v in (math.nan, math.inf, -math.inf)]  # fmt: skip
+    for command in ("run", "furnace", "radiance", "converge"):
+        report = Report(command, {}, [Result("m", {}, "furnace", odd)], {})
+        assert faults(html.render(report)) == []
+    assert faults(html.render(Report("run", {}, []))) == []
+
+
+def test_the_page_of_a_failing_model(
+    cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("my <b>.py").write_text(MISSING_PI, encoding="utf-8")
+    line = ("run", "--model", "my <b>.py", "--check", "furnace,energy", "--theta-o", "0,60")
+    exports = ("--export", "page.html", "--export", "r.json")
+    assert cli(*line, *exports).code == 1
+    page = Path("page.html").read_text(encoding="utf-8")
+    assert faults(page) == [] and len(page.encode()) < 1_500_000
+    words = text_of(page)
+    assert words.index("FAIL") < words.index("the factor 1/pi is missing") < words.index("Source")
+    assert "def f(wo, wi, p): ← furnace, energy" in words and "<b>&amp;</b>" in words
+    assert "brdf-check run --model 'my <b>.py' --check furnace" in words and page.count("<svg") == 2
+    # a pure function of the report, whoever has it and with whatever versions
+    monkeypatch.setattr("montecarlo_brdf.judge.finding.versions", lambda: {"numba": "other"})
+    again = read_report(Path("r.json"))
+    again.measured["repeat"] = shlex.join(["brdf-check", *line, *exports])
+    assert html.render(again) == page
+
+
+def test_several_reports_make_one_page(
+    cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli("furnace", "--model", "lambert", "--theta-o", 0, "--export", "a.json").code == 0
+    assert cli("identities", "--export", "b.json").code == 0
+    assert cli("report", "a.json", "b.json", "-o", "both.html").code == 0
+    page = Path("both.html").read_text(encoding="utf-8")
+    assert faults(page) == [] and "How furnace was asked" in page and "How identities" in page
+    assert cli("report", "a.json", "-o", "a.md").code == 0 and Path("a.md").read_text()
+    assert cli("report", "a.json", "b.json", "-o", "both.md").code == 2
+    assert cli("report", "a.json", "-o", "a.json").code == 2
+    assert cli("report", "a.json", "-o", "none/a.html").code == 5
+    damaged = json.loads(Path("a.json").read_text())
+    Path("stress.json").write_text(json.dumps({**damaged, "command": "stress"}))
+    assert "cannot be shown" in cli("report", "stress.json", "-o", "x.html").err
+    Path("old.json").write_text(json.dumps({"schema": 0, "results": []}))
+    assert "reads schema" in cli("report", "old.json", "-o", "x.html").err
+
+
+def test_pages_of_other_commands(cli: Command, tmp_path: Path) -> None:
+    for line in (
+        "stress --model lambert --quick", "converge --model lambert --sampler cosine",
+        "radiance --model lambert --environment cosine:2 --theta-o 0,60", "compare lambert eon",
+    ):  # fmt: skip
+        page = tmp_path / "page.html"
+        assert cli(*line.split(), "--export", page).code in (0, 1), line
+        assert faults(page.read_text(encoding="utf-8")) == []
+
+
+def test_sources_in_other_encodings(
+    cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = "# -*- coding: latin-1 -*-\n# gr\u00f6\u00dfe\ndef f(wo, wi, p):\n    return 0.1\n"
+    Path("latin.py").write_bytes(text.encode("latin-1"))
+    line = ("furnace", "--model", "latin.py", "--theta-o", 0, "--export", "page.html")
+    assert cli(*line).code == 0 and faults(Path("page.html").read_text(encoding="utf-8")) == []
+
+
+BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not BROWSER, reason="no Chromium")
+def test_a_browser_opens_it_without_a_word(cli: Command, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    cli("run", "--model", "lambert_unnormalised", "--check", "furnace", "--export", page)
+    flags = ("--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--v=0")
+    hosts = "--host-resolver-rules=MAP * ~NOTFOUND"
+    began = time.perf_counter()
+    done = subprocess.run(
+        [str(BROWSER), *flags, hosts, "--virtual-time-budget=500", "--dump-dom", f"file://{page}"],
+        capture_output=True, text=True, timeout=60,
+    )  # fmt: skip
+    assert "CONSOLE" not in done.stderr and "Failed to load" not in done.stderr
+    assert ">Copy</button>" in done.stdout and 'hidden=""' not in done.stdout  # its script ran
+    assert time.perf_counter() - began < 20.0
