@@ -23,8 +23,8 @@ from montecarlo_brdf.files import know_input
 from montecarlo_brdf.foreign import translation
 from montecarlo_brdf.model import (
     KINKS,
-    LOBES,
     PROPERTIES,
+    Around,
     Limit,
     Lobe,
     Model,
@@ -292,9 +292,9 @@ MEMBERS = {
         lambda value: tuple(Limit(*pair) for pair in value),
     ),
     "lobe": Rule(
-        lambda value: _is_pair(value) and _kind(value[0]) in LOBES and callable(value[1]),
-        f"(kind, function of p), a kind being one of {', '.join(LOBES)}, not {{!r}}",
-        lambda value: Lobe(_kind(value[0]), functools.partial(_width, value[1])),
+        lambda value: _is_pair(value) and _kind(value[0]) in list(Around) and callable(value[1]),
+        f"(kind, function of p), a kind being one of {', '.join(Around)}, not {{!r}}",
+        lambda value: Lobe(Around(_kind(value[0])), functools.partial(_width, value[1])),
     ),
 }
 #: What the parts of an option must be.

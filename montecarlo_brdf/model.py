@@ -45,8 +45,6 @@ class Property(StrEnum):
 
 
 PROPERTIES = tuple(Property)
-#: where a lobe may sit
-LOBES = ("mirror", "half vector")
 #: where f may not be smooth
 KINKS = ("mu_i=mu_o", "cos_phi=0")
 
@@ -55,10 +53,17 @@ class NoParams(NamedTuple):
     """The parameters of a model that has none."""
 
 
-class Lobe(NamedTuple):
-    """Where a model's lobe sits, "mirror" or "half vector", and how wide it is: a GGX width."""
+class Around(StrEnum):
+    """Where a model's lobe sits."""
 
-    kind: str
+    MIRROR = "mirror"
+    HALF_VECTOR = "half vector"
+
+
+class Lobe(NamedTuple):
+    """Where a model's lobe sits, and how wide it is: a GGX width."""
+
+    around: Around
     width: Callable[[Any], float]
 
 

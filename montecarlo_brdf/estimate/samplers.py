@@ -8,24 +8,19 @@ from typing import Any, NamedTuple
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import probe, quantity
 from montecarlo_brdf.estimate.quantity import Integrand, Quantity
-from montecarlo_brdf.model import Model, ParameterSet, Prepared, channels
+from montecarlo_brdf.model import Around, Model, ParameterSet, Prepared, channels
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec
 
 BLIND = (Sampler.UNIFORM, Sampler.COSINE)  # to what the model is
 SAMPLERS = (*BLIND, Sampler.OWN)
-LOBES = {"half vector": Sampler.HALF_VECTOR, "mirror": Sampler.MIRROR}
+LOBES = {Around.HALF_VECTOR: Sampler.HALF_VECTOR, Around.MIRROR: Sampler.MIRROR}
 
 
 def charts_of(model: Model) -> tuple[Sampler, ...]:
     """The charts fitted to what the model declares: its lobe, its kinks."""
-    lobe = lobe_chart(model)
-    return (*((lobe,) if lobe else ()), *((Sampler.PANELS,) if model.kinks else ()))
-
-
-def lobe_chart(model: Model) -> Sampler | None:
-    """The chart that fits the lobe that the model declares."""
-    return LOBES.get(model.lobe[0].replace("_", " ")) if isinstance(model.lobe, tuple) else None
+    lobe = (LOBES[model.lobe.around],) if model.lobe else ()
+    return (*lobe, *((Sampler.PANELS,) if model.kinks else ()))
 
 
 def samplers_of(model: Model, of: Quantity = Quantity.ALBEDO) -> tuple[Sampler, ...]:
@@ -59,7 +54,7 @@ def integrand(model: Model, of: Quantity, sampler: Sampler | str, **more: object
 
 def query(model: Model, p: ParameterSet, fixed: Vec) -> tuple[float, ...]:
     """What integrands get as `given`: the given direction and the width of the narrowest lobe."""
-    if model.lobe is None or lobe_chart(model) is None:
+    if model.lobe is None:
         return (*fixed, 0.0)
     return (*fixed, min(float(model.lobe.width(one)) for one in channels(p)))
 
