@@ -85,16 +85,20 @@ def supervised(
     works = [_Work(function) for _ in range(threads)]
     late: float | None = None
     try:
-        while _running(works) and not _errors(works):
-            if _running(works)[0].ended.wait(TICK) or not limit.over():
+        while (running := _running(works)) and not any(work.error for work in works):
+            if running[0].ended.wait(TICK) or not limit.over():
                 continue
             late = late or time.monotonic()
             if time.monotonic() - late >= grace:
                 break
-        errors = _errors(works)
+        errors = [work.error for work in works if work.error]
     finally:  # also when whoever waits here is interrupted, or left itself
         left = _running(works)
-        _leave(left)
+        for work in left:
+            work.leave()
+        until = time.monotonic() + UNWINDING
+        for work in left:
+            work.ended.wait(max(0.0, until - time.monotonic()))
     if errors:
         raise errors[0]
     return not left
@@ -102,16 +106,3 @@ def supervised(
 
 def _running(works: list[_Work]) -> list[_Work]:
     return [work for work in works if not work.ended.is_set()]
-
-
-def _errors(works: list[_Work]) -> list[BaseException]:
-    return [work.error for work in works if work.error]
-
-
-def _leave(works: list[_Work]) -> None:
-    """End them as soon as they can be."""
-    for work in works:
-        work.leave()
-    until = time.monotonic() + UNWINDING
-    for work in works:
-        work.ended.wait(max(0.0, until - time.monotonic()))
