@@ -99,9 +99,9 @@ def _shader(path: Path, picks: Mapping[str, str]) -> Model:
     return model.variant(**picks) if picks else model
 
 
-def _single(path: Path, text: str) -> Model:
-    """The same rounded as a shader is."""
-    return build(str(path), vars(translation.module(path, text)))
+def _single(path: Path, text: str) -> Namespace:
+    """The same functions, rounded as a shader is; numpy, which they need, is slow to import."""
+    return vars(translation.module(path, text))
 
 
 def _from_file(path: Path) -> types.ModuleType:
@@ -280,6 +280,11 @@ MEMBERS = {
     ),
     "same_as": NAME,
     "scales_with": NAME,
+    "single": Rule(
+        lambda value: isinstance(value, Mapping) and callable(value.get("f")),
+        "a dictionary from f and pdf to functions, not {!r}",
+        lambda value: lambda: value,
+    ),
     "isotropic": Rule(_is(bool), "True or False, not {!r}"),
     "lossless": Rule(
         lambda value: isinstance(value, bool) or _all(_is_set)(value),

@@ -117,7 +117,7 @@ class Model:
     picks: Mapping[str, str] = field(default_factory=dict)
     labels: Mapping[str, str] = field(default_factory=dict)  # field -> name, where they differ
     terms: tuple[Term, ...] = ()  # of a mixture
-    single: Callable[[], Model] | None = field(default=None, repr=False)  # of a shader: in float32
+    single: Callable[[], Mapping[str, Function]] | None = field(default=None, repr=False)
     namespace: Mapping[str, Any] = field(default_factory=dict, repr=False)
     rebuild: Callable[[Mapping[str, str]], Model] | None = field(default=None, repr=False)
 

@@ -21,12 +21,22 @@ Ints = MutableSequence[int]
 Reals = Sequence[float]
 Out = MutableSequence[float]
 STANDARD = ("math", "cmath", "builtins", "numpy", "numba")
+STRICT = "STRICT"
 GLOBAL_LOADS = ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
 
 
 def plain(value: object) -> Any:
     """The Python function behind a numba dispatcher; anything else as it is."""
     return getattr(value, "py_func", value)
+
+
+def is_strict(function: Function) -> bool:
+    """Whether every operation is to be rounded as it is written: its module says STRICT = True.
+
+    Elsewhere sums may be reordered and products fused, which is faster and no less precise; but it
+    is not what is asked of a function whose rounding is looked at.
+    """
+    return plain(function).__globals__.get(STRICT) is True
 
 
 def is_own_module(value: object) -> TypeGuard[types.ModuleType]:
@@ -154,6 +164,7 @@ class Specialiser:
         """`function` with every global name it uses replaced by its compiled counterpart."""
         code = function.__code__
         scope: dict[str, Any] = {"__builtins__": __builtins__, "__name__": function.__module__}
+        scope[STRICT] = is_strict(function)
         for name, value in references(function, names).items():
             scope[name] = self._stand_in(value, code, names)
         cells = tuple(

@@ -23,6 +23,7 @@ from montecarlo_brdf.compile.bind import (
     Bound,
     Instruction,
     is_own_module,
+    is_strict,
     module_functions,
     names_used,
     plain,
@@ -225,6 +226,8 @@ class Fingerprint:
             return
         self._seen[place] = len(self._seen)
         self._add_code(function.__code__)
+        if is_strict(function):
+            self._text("strict")
         self.add((function.__defaults__, function.__kwdefaults__))
         self.add([cell.cell_contents for cell in function.__closure__ or ()])
         for name, value in references(function, names).items():

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from montecarlo_brdf.compile import linking, native
+from montecarlo_brdf.compile.bind import is_strict
 
 Function = Callable[..., Any]
 
@@ -47,7 +48,7 @@ def compiled(function: Callable[..., Any], strict: bool = False) -> Any:
     """`function` as a numba dispatcher with our options (and never numba's own file cache)."""
     import numba
 
-    return numba.njit(**options(strict))(function)
+    return numba.njit(**options(strict or is_strict(function)))(function)
 
 
 def part(function: Function) -> Any:
@@ -119,7 +120,7 @@ def _jit(function: Function, *signature: Any, **more: Any) -> Any:
     import numba
 
     decorated: Any = numba.njit
-    return decorated(*signature, **more, **options())(function)
+    return decorated(*signature, **more, **options(is_strict(function)))(function)
 
 
 def _pointers() -> tuple[Any, ...]:

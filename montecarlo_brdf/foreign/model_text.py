@@ -44,6 +44,8 @@ class Version:
         head = [repr(self._doc()), "from typing import NamedTuple"]
         if "array(" in body:
             head.append("from numpy import array")
+        if self.numerals.single:
+            head.append("STRICT = True")
         if known:
             head.append(f"{imports}{', '.join(known)}")
         return "\n".join(head) + f"\n\n\n{self._params()}\n\n{body}\n"

@@ -36,6 +36,7 @@ __all__ = [
     "truncated", "whole", "whole_sign",
 ]  # fmt: skip
 
+STRICT = True  # compiled without any rewriting
 INF = F(math.inf)
 NAN = F(math.nan)
 LARGE = F(8388608.0)  # 2^23: every float from here on is whole

@@ -71,6 +71,7 @@ def run(
     """
     asked = chosen("check", names or "all", checks.names())
     asked = [name for name in checks.names() if name in asked]
+    asked = checks.asked(model) if asked == checks.names() else asked
     angles = [check_theta(a) for a in theta_o_deg]
     settings = Settings(points, samples, seed, threads, tolerance, effort=effort)
     allowed = _allowed(settings, chosen("check", [*tolerances], checks.names()), tolerances)

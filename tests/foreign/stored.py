@@ -4,6 +4,7 @@
 """
 from __future__ import annotations
 
+import dataclasses
 import math
 import random
 from collections.abc import Iterator
@@ -45,7 +46,9 @@ def functions(text: str) -> dict[str, Any]:
 
 def model(name: str) -> Model:
     """The model that a stored shader is."""
-    return loading.build(name, functions(texts(name).double))
+    found = texts(name)
+    made = loading.build(name, functions(found.double))
+    return dataclasses.replace(made, single=lambda: functions(found.single))
 
 
 def pairs(count: int, seed: int = 1) -> Iterator[tuple[Vec, Vec, random.Random]]:
