@@ -63,7 +63,7 @@ def test_models_of_a_list_too(folder: Path, cli: Command) -> None:
 #: commands -> what the sentence says of the place
 PLACES = {
     "furnace --model grazing.py --theta-o 85": "wi = (",
-    "converge --model grazing.py --theta-o 85 --samples 2^10": "wi = (",
+    "converge --model grazing.py --theta-o 85 --samples 2^12": "wi = (",
     "compare lambert grazing.py --theta-o 85": "wi = (",
     "compare grazing.py lambert --theta-o 85": "wi = (",
     "bench --model grazing.py --theta-o 85 --quick": "wi = (",
