@@ -92,6 +92,7 @@ def _shader(path: Path, picks: Mapping[str, str]) -> Model:
     """A model in a shading language, with its single precision beside it."""
     if not os.path.isfile(path):
         raise UserError(f"no model file {path}")
+    know_input(path)
     found = translation.translated(path)
     model = build(str(path), vars(translation.module(path, found.double)))
     if found.single:
@@ -109,11 +110,14 @@ def _from_file(path: Path) -> types.ModuleType:
     if not os.path.isfile(path):  # also False for a name that no file can have
         raise UserError(f"no model file {path}")
     know_input(path)
-    folder = str(path.resolve().parent)
-    if folder not in sys.path:
-        sys.path.insert(0, folder)
+    package, root = _package(path.resolve().parent)
+    for folder in {str(path.resolve().parent), str(root)}:  # first, whatever was loaded before
+        sys.path[:] = [folder, *(other for other in sys.path if other != folder)]
     module = types.ModuleType(path.stem)
     module.__file__ = str(path)
+    if package:  # so that `from .util import x` works
+        module.__package__ = package
+        _forget_namesake(package.partition(".")[0], root)
     try:
         with _running(module):
             exec(_compiled(path), vars(module))  # noqa: S102
@@ -122,6 +126,23 @@ def _from_file(path: Path) -> types.ModuleType:
     except (Exception, SystemExit) as error:
         raise ModelError(f"{path} {raised(error, path)} while it was loaded") from error
     return module
+
+
+def _package(folder: Path) -> tuple[str, Path]:
+    """The package that a folder is, 'materials.metals', and the folder that it is imported from."""
+    names: list[str] = []
+    while (folder / "__init__.py").is_file():
+        names.insert(0, folder.name)
+        folder = folder.parent
+    return ".".join(names), folder
+
+
+def _forget_namesake(package: str, root: Path) -> None:
+    """Another project's package of the same name must not stand for this one."""
+    known = getattr(sys.modules.get(package), "__file__", None)
+    if known and Path(known).resolve().parent.parent != root:
+        for name in [n for n in sys.modules if n == package or n.startswith(f"{package}.")]:
+            del sys.modules[name]
 
 
 @contextlib.contextmanager

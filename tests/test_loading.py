@@ -54,3 +54,27 @@ def test_a_file_with_a_dataclass_is_loaded(tmp_path: Path) -> None:
 def test_a_domain_of_no_parameter_is_told(tmp_path: Path) -> None:
     with pytest.raises(mb.ModelError, match="did you mean 'albedo'"):
         mb.load(written(tmp_path, MISSPELT))
+
+
+def package(folder: Path, value: str) -> str:
+    """A model within a package within a package, which imports in both ways."""
+    inner = folder / "materials" / "metals"
+    inner.mkdir(parents=True)
+    for one in (inner.parent, inner):
+        (one / "__init__.py").touch()
+    (inner.parent / "util.py").write_text(f"VALUE = {value}\n", encoding="utf-8")
+    text = "from ..util import VALUE\nfrom materials.util import VALUE as SAME\n"
+    text += "def f(wo, wi, p):\n    return VALUE + SAME\n"
+    (inner / "gold.py").write_text(text, encoding="utf-8")
+    return str(inner / "gold.py")
+
+
+def test_a_file_in_a_package_imports_its_neighbours(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "path", sys.path[:])
+    one, two = package(tmp_path / "a", "0.1"), package(tmp_path / "b", "0.2")
+    up = (0.0, 0.0, 1.0)
+    assert mb.load(one).f(up, up, ()) == 0.2
+    assert mb.load(two).f(up, up, ()) == 0.4  # another project's package of the same name
+    assert mb.furnace(mb.load(one), theta_o_deg=0.0, sampler="cosine").verdict == "pass"

@@ -267,3 +267,9 @@ def test_a_member_that_gives_nothing_usable(declared: str, user_file: Write) -> 
     with pytest.raises(ModelError) as refused:
         mb.furnace(mb.load(str(path)), theta_o_deg=30.0)
     assert UNUSABLE[declared].format(path) in str(refused.value)
+
+
+def test_f_that_draws_random_numbers_is_no_brdf(user_file: Write) -> None:
+    path = user_file("import random\ndef f(wo, wi, p):\n    return 0.1 + 0.01 * random.random()\n")
+    with pytest.raises(ModelError, match="several values for the same directions"):
+        mb.run(mb.load(str(path)), names=["reciprocity"])

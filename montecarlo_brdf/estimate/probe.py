@@ -32,6 +32,7 @@ def check(model: Model, p: ParameterSet) -> None:
         for wo in DIRECTIONS:
             for wi in DIRECTIONS:
                 evaluated(model, "f", wo, wi, ready)
+        _check_repeats(model, ready)
         if model.sample:
             evaluated(model, "sample", DIRECTIONS[0], UNIFORMS, ready)
         if model.pdf:
@@ -40,6 +41,18 @@ def check(model: Model, p: ParameterSet) -> None:
             _number(model, "albedo", called(model, "albedo", model.albedo, 0.5, one))
         if model.lobe:
             called(model, "lobe", model.lobe.width, one)
+
+
+def _check_repeats(model: Model, ready: Prepared) -> None:
+    """A function that gives another value each time would be told as not reciprocal."""
+    wo, wi = DIRECTIONS[:2]
+    values = [number_from(model, "f", model.f, wo, wi, ready) for _ in range(3)]
+    if len({v for v in values if not math.isnan(v)}) > 1:
+        told = ", ".join(f"{v:.6g}" for v in values)
+        raise ModelError(
+            f"f of model {model.name} gives several values for the same directions ({told}): "
+            "it may depend on nothing but wo, wi and p"
+        )
 
 
 def evaluated(model: Model, member: str, wo: Vec, other: Vec, ready: Prepared) -> None:
