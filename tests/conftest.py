@@ -35,6 +35,7 @@ def kernel_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = Path(os.environ.get("BRDF_CHECK_TEST_CACHE", shared / "kernels"))
     folder.mkdir(exist_ok=True)
     os.environ["BRDF_CHECK_CACHE_DIR"] = str(folder)
+    os.environ["BRDF_CHECK_QUIET"] = "1"  # a cold cache says no more on stderr than a warm one
     return folder
 
 

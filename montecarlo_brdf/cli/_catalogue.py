@@ -10,17 +10,38 @@ from montecarlo_brdf.report.columns import Column, Row, Style
 
 COLUMNS = (
     Column("model", style=lambda name: Style.BOLD), Column("what it is", words=True),
-    Column("parameters", fold=2, words=True), Column("reference", fold=3, words=True),
-    Column("disclaims", fold=1, words=True),
+    Column("parameters", fold=2, words=True), Column("disclaims", fold=1, words=True),
 )  # fmt: skip
 
 
 def row(model: Model) -> Row:
     """One model of a table."""
+    names = [*(model.labels.get(n, n) for n in model.Params._fields), *model.choices]
     return (
-        model.name, first_line(model), ", ".join([*ranges(model), *options(model)]),
-        reference_kind(model), ", ".join(model.disclaims) or "-",
+        model.name, first_line(model), ", ".join(names), ", ".join(model.disclaims)
     )  # fmt: skip
+
+
+def data(model: Model) -> dict[str, Any]:
+    """Everything about a model as plain data."""
+    defaults = model.Params._field_defaults
+    names = {n: model.labels.get(n, n) for n in model.Params._fields}
+    return {
+        "name": model.name,
+        "doc": model.doc.strip(),
+        "parameters": {
+            name: {"default": defaults.get(n), "domain": list(model.domain.get(n, ())) or None}
+            for n, name in names.items()
+        },
+        "choices": {
+            name: {"picked": model.picks[name], "options": [*picks]}
+            for name, picks in model.choices.items()
+        },
+        "sampler": model.sample is not None,
+        "reference": reference_kind(model),
+        "claims": [p for p in PROPERTIES if p not in model.disclaims],
+        "disclaims": dict(model.disclaims),
+    }
 
 
 def page(model: Model) -> list[str]:
@@ -63,11 +84,6 @@ def ranges(model: Model) -> list[str]:
 def _shown(default: Any) -> str:
     """0.8, or a colour as -p takes it."""
     return "/".join(f"{v:g}" for v in (default if isinstance(default, tuple) else [default]))
-
-
-def options(model: Model) -> list[str]:
-    """'norm: n+2|n+8' for every choice."""
-    return [f"{category}: {'|'.join(picks)}" for category, picks in model.choices.items()]
 
 
 def reference_kind(model: Model) -> str:

@@ -28,7 +28,7 @@ MOST_SOURCE = 200_000  # bytes of a model's file that reports keep
 #: suffixes of files that are no reports
 OTHERS = (".py", ".toml", ".png", ".svg", ".pdf", ".npy", ".exr", ".hdr")
 MOST_DIGITS = 400  # of a number: more than any double has
-TEXT = "text"
+TEXT, JSON = "text", "json"
 FORMATS = (TEXT, *formats.SUFFIXES)
 Command = Callable[..., int]
 Option = Callable[[Command], Command]
@@ -252,6 +252,56 @@ def model_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> 
     return [n for n in names() if n.startswith(incomplete)]
 
 
+Complete = Callable[[click.Context, click.Parameter, str], list[str]]
+
+
+def one_of(names: Callable[[], Iterable[str]]) -> Complete:
+    """Completion of a name, and of the last of several with commas."""
+
+    def complete(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
+        before, comma, last = incomplete.rpartition(",")
+        return [f"{before}{comma}{name}" for name in names() if name.startswith(last)]
+
+    return complete
+
+
+def check_names() -> list[str]:
+    """For --check."""
+    from montecarlo_brdf import checks
+
+    return ["all", *checks.names()]
+
+
+def point_sets() -> list[str]:
+    """For --points."""
+    from montecarlo_brdf.sampling.points import SETS
+
+    return [str(name) for name in SETS]
+
+
+def sampler_names() -> list[str]:
+    """For --sampler."""
+    from montecarlo_brdf.estimate.samplers import SAMPLERS
+
+    return ["all", *map(str, SAMPLERS)]
+
+
+def parameter_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
+    """Completion of -p: the parameters and choices of the model, once it is known."""
+    from montecarlo_brdf import loading
+
+    name, equals, value = incomplete.partition("=")
+    try:
+        model = loading.load(str(ctx.params.get("spec") or ctx.params.get("model")))
+    except UserError:
+        return []
+    if equals:
+        options = model.choices.get(name, {})
+        return [f"{name}={option}" for option in options if option.startswith(value)]
+    fields = (model.labels.get(n, n) for n in model.Params._fields)
+    return [f"{n}=" for n in (*fields, *model.choices) if n.startswith(name)]
+
+
 #: options that several commands have, some with a help of their own
 model = partial(
     click.option, "--model", "spec", metavar="MODEL", shell_complete=model_names,
@@ -259,6 +309,7 @@ model = partial(
 )  # fmt: skip
 parameters = partial(
     click.option, "-p", "--param", "assignments", multiple=True, metavar="NAME=VALUE",
+    shell_complete=parameter_names,
     help="A parameter or choice; lists and ranges make cases, a/b/c makes a colour. "
     "[-p albedo=0.5  -p alpha=0.1,0.3  -p alpha=0.05:1:log5  -p f0=1/0.7/0.3]",
 )  # fmt: skip
@@ -289,6 +340,11 @@ tolerances = partial(
     "bound [default: 1e-5]. Of a single check by name, as laws (reciprocity, isotropy, positivity) "
     "keep theirs. [--tolerance 1e-3,reciprocity=1e-4]",
 )  # fmt: skip
+#: what the catalogue is printed as
+plain_format = partial(
+    click.option, "--format", "form", type=click.Choice((TEXT, JSON)), default=TEXT,
+    show_default=True, help="What stdout gets. [--format json]",
+)  # fmt: skip
 plot = partial(click.option, "--plot", type=FILE, metavar="FILE")
 
 
@@ -310,6 +366,7 @@ def sampling_options(command: Command, allowed: Callable[[], Option] = tolerance
     """--points, --samples, --seed, --threads, --tolerance, as one argument `sampling`."""
     return _gathered(command, "sampling", Sampling, [
         click.option("--points", default="sobol", show_default=True, metavar="SET",
+                     shell_complete=one_of(point_sets),
                      help="Point set: sobol, independent, stratified or lattice. "
                      "[--points independent]"),
         click.option("--samples", type=WHOLE, default=None,
@@ -326,11 +383,13 @@ def output_options(command: Command) -> Command:
     has one, as one argument `output`."""
     return _gathered(command, "output", Output, [
         click.option("--format", "form", default=TEXT, show_default=True, metavar="FORM",
+                     shell_complete=one_of(lambda: FORMATS),
                      help=f"What stdout gets: {', '.join(FORMATS)}. [--format junit]"),
         click.option("--export", "exports", type=FILE, metavar="FILE",
                      multiple=True,
-                     help="Write the report in the format of the suffix: .html, .json, .xml "
-                     "(JUnit), .md, .csv; may be given more than once. [--export junit.xml]"),
+                     help="Write the report in the format of the suffix: .html, .json, "
+                     ".xml (JUnit), .md, .csv, .sarif; may be given more than once. "
+                     "[--export junit.xml]"),
         click.option("--export-json", type=FILE, metavar="FILE",
                      help="Write the whole report. [--export-json report.json]"),
         click.option("--inconclusive", type=click.Choice([p.value for p in Policy]), default=None,
@@ -338,6 +397,8 @@ def output_options(command: Command) -> Command:
                      help="Count inconclusive as pass (exit 0) or fail (exit 1), not as exit 3."),
         click.option("-v", "--verbose", is_flag=True,
                      help="Show every estimator of every finding."),
+        click.option("-q", "--quiet", is_flag=True,
+                     help="Print the verdict alone, and no progress."),
     ])  # fmt: skip
 
 
@@ -365,6 +426,7 @@ class Output(NamedTuple):
     export_json: Path | None
     inconclusive: Policy | None
     verbose: bool
+    quiet: bool = False
     plot: Path | None = None
 
     def check(self) -> None:
@@ -420,8 +482,9 @@ def deliver(report: Report, output: Output) -> int:
         from montecarlo_brdf.report import pictures
 
         write_bytes(output.plot, pictures.drawn(report, pictures.kind_of(output.plot)))
-    if {"html", "json"} & {output.form, *output._files().values()}:
-        report.measured["sources"] = sources(report)
+    wanted = {"html", "json"} & {output.form, *output._files().values()}
+    if wanted and (files := sources(report)):
+        report.measured["sources"] = files
     if "html" in {output.form, *output._files().values()}:
         root = click.get_current_context().find_root()
         report.measured["repeat"] = shlex.join(["brdf-check", *(root.obj or [])])
@@ -434,7 +497,11 @@ def deliver(report: Report, output: Output) -> int:
     else:
         from montecarlo_brdf.report import text
 
-        _terminal.tell(text.render(report, output.verbose, _terminal.width(), _terminal.colour()))
+        colour = _terminal.colour()
+        if output.quiet:
+            _terminal.tell(text.summary(report, colour))
+        else:
+            _terminal.tell(text.render(report, output.verbose, _terminal.width(), colour))
     if output.form == "github":
         _summarise(report)
     for sentence in dict.fromkeys(f.note for f in errors(report)):

@@ -15,11 +15,13 @@ from typing import TextIO
 import click
 
 from montecarlo_brdf.compile import cache
+from montecarlo_brdf.compile.kernel import listeners
 from montecarlo_brdf.report.text import PLAIN_WIDTH
 
 PATIENCE = 0.5
 INTERVAL = 0.1  # seconds from one drawing to the next
 CELLS = 40
+LONG = 3.0  # seconds of compiling after which one is told
 ERASE = "\r\x1b[K"
 
 
@@ -67,9 +69,13 @@ def progress(title: str) -> Iterator[Callable[[float], None]]:
     if why := cache.fault():
         slow = "everything is compiled anew each time"
         click.echo(f"Warning: cannot write to {cache.directory()} ({why}): {slow}", err=True)
+    if _quiet():
+        yield lambda done: None
+        return
     started = time.monotonic()
     due = started + PATIENCE
     drawn = False
+    words = _Words()
     one_at_a_time = threading.Lock()  # checks side by side all tell how far they are
 
     def update(done: float) -> None:
@@ -80,13 +86,48 @@ def progress(title: str) -> Iterator[Callable[[float], None]]:
         with one_at_a_time:
             due = now + INTERVAL
             drawn = True
-            _write(ERASE + line(title, done, now - started))
+            _write(ERASE + line(words.compiling or title, done, now - started))
 
+    listeners.append(words.hear)
     try:
         yield update
     finally:
+        listeners.remove(words.hear)
+        words.end()
         if drawn:
             _write(ERASE)
+
+
+class _Words:
+    """What to say while machine code is made, which the first run of a model waits for."""
+
+    def __init__(self) -> None:
+        self.compiling = ""
+        self._timer: threading.Timer | None = None
+
+    def hear(self, model: str) -> None:
+        """A kernel is compiled; those of the next seconds belong to it."""
+        self.compiling = f"compiling {model}"
+        if self._timer is None:
+            self._timer = threading.Timer(LONG, self._say)
+            self._timer.daemon = True
+            self._timer.start()
+
+    def _say(self) -> None:
+        told = f"{self.compiling}: only the first run after an edit takes so long"
+        _write(f"{ERASE}{told}\n" if _terminal() else f"{told}\n")
+
+    def end(self) -> None:
+        """Say nothing any more."""
+        if self._timer:
+            self._timer.cancel()
+
+
+def _quiet() -> bool:
+    """Whether nobody wants to hear how it goes: --quiet, or BRDF_CHECK_QUIET."""
+    context = click.get_current_context(silent=True)
+    asked = bool(context and context.params.get("quiet"))
+    return asked or bool(os.environ.get("BRDF_CHECK_QUIET"))
 
 
 def line(title: str, done: float, seconds: float) -> str:

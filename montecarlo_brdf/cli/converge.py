@@ -21,9 +21,11 @@ Examples:
                   help="Polar angle of the viewer in [0, 90). [--theta-o 80]")  # fmt: skip
 @_options.phi_o()
 @click.option("--sampler", type=Read(listed), default="all", show_default=True, metavar="NAMES",
+              shell_complete=_options.one_of(_options.sampler_names),
               help="all, or some of uniform, cosine, own, half_vector, mirror, panels. "
               "[--sampler cosine,own]")  # fmt: skip
 @click.option("--points", type=Read(listed), default="all", show_default=True, metavar="SETS",
+              shell_complete=_options.one_of(_options.point_sets),
               help="all, or some of independent, stratified, sobol, lattice. "
               "[--points sobol,lattice]")  # fmt: skip
 @click.option("--samples", type=WHOLE, default="2^21", show_default=True,

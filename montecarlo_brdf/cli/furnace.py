@@ -30,6 +30,7 @@ Examples:
                   "[--theta-o 0:85:18]")  # fmt: skip
 @_options.phi_o()
 @click.option("--sampler", type=Read(listed), default="all", show_default=True, metavar="NAMES",
+              shell_complete=_options.one_of(_options.sampler_names),
               help="all, or some of uniform, cosine, own. [--sampler cosine,own]")  # fmt: skip
 @click.option("--target-error", type=finite("in [1e-13, 1)"), default=None,
               help="Sample until the 99 % interval of A is as narrow, relative to A. "

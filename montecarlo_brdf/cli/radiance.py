@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 EPILOG = """\b
 Examples:
+  brdf-check examples --copy examples
   brdf-check radiance examples/cook_torrance.toml
   brdf-check radiance --model ggx -p alpha=0.1 --environment cosine:8
   brdf-check radiance --model lambert --environment cap:10:60 --theta-o 0:80:9 --plot radiance.png

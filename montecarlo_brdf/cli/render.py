@@ -24,6 +24,7 @@ MOST_SPHERES = 12
 
 EPILOG = """\b
 Examples:
+  brdf-check examples --copy examples
   brdf-check render examples/cook_torrance.toml -o sphere.png
   brdf-check render --model ggx --furnace -p alpha=0.1:1:5 -o furnace.png
   brdf-check render examples/lambert.toml --furnace -o furnace.png -o furnace.npy

@@ -44,6 +44,7 @@ Examples:
               help="Without --model: what to check, instead of the nearest brdf-check.toml or "
               "[tool.brdf-check] of a pyproject.toml. [--config ci/brdf-check.toml]")  # fmt: skip
 @click.option("--check", "names", type=Read(listed), default="all", show_default=True,
+              shell_complete=_options.one_of(_options.check_names),
               metavar="NAMES", help="Which checks, separated by commas. [--check energy,pdf]")
 @_options.theta_o(default="0,45,80",
                   help="Angles of the viewer in [0, 90) for checks that look at some. "

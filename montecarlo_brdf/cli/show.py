@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
+import json
+
 import click
 
-from montecarlo_brdf.cli._options import model_names
+from montecarlo_brdf.cli import _options
+
+EPILOG = """\b
+Examples:
+  brdf-check show lambert
+  brdf-check show ggx --format json
+"""
 
 
-@click.command(
-    "show", epilog="\b\nExample:\n  brdf-check show lambert", short_help="All about a model."
-)
-@click.argument("spec", metavar="MODEL", shell_complete=model_names)
-def command(spec: str) -> int:
+@click.command("show", epilog=EPILOG, short_help="All about a model.")
+@click.argument("spec", metavar="MODEL", shell_complete=_options.model_names)
+@_options.plain_format()
+def command(spec: str, form: str) -> int:
     """Formula, units, source, parameters, sampling, what the model claims and what it disclaims."""
     from montecarlo_brdf import loading
-    from montecarlo_brdf.cli._catalogue import page
+    from montecarlo_brdf.cli import _catalogue
     from montecarlo_brdf.cli._terminal import colour, tell
     from montecarlo_brdf.report.columns import Style, painted
 
     model = loading.load(spec)
-    tell("\n".join([painted(model.name, Style.BOLD, colour()), *page(model)]))
+    if form == _options.JSON:
+        tell(json.dumps(_catalogue.data(model), indent=1))
+    else:
+        name = painted(model.name, Style.BOLD, colour())
+        tell("\n".join([name, *_catalogue.page(model)]))
     return 0

@@ -108,6 +108,8 @@ class Kernel:
     def _ours(self) -> native.Entry:
         image = cache.read(self.key)
         if not image:
+            for hear in listeners:
+                hear(self._model)
             image = compiler.object_file(self.assembled(compiler.part))
             cache.write(self.key, image)
         return native.load(image)
@@ -120,6 +122,8 @@ class Kernel:
         return ModelError(f"model {self._model} does not compile: {_first_reason(error)}")
 
 
+#: are told of a model whose code is compiled for the first time
+listeners: list[Callable[[str], None]] = []
 _lock = threading.RLock()  # numba and what is shared between kernels serve one thread
 _kernels: dict[Bound, Kernel] = {}  # spares the hash of all code at every call
 

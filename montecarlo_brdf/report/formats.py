@@ -11,7 +11,7 @@ from montecarlo_brdf.judge.finding import Report
 
 #: name -> suffix of its files; none for what is only for a terminal
 SUFFIXES = {"csv": ".csv", "github": "", "html": ".html", "json": ".json", "junit": ".xml"}
-SUFFIXES |= {"markdown": ".md"}
+SUFFIXES |= {"markdown": ".md", "sarif": ".sarif"}
 
 
 def suffixes() -> dict[str, str]:

@@ -7,8 +7,10 @@ system-out.
 """
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
+from collections.abc import Sequence
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
@@ -26,8 +28,10 @@ def render(report: Report) -> str:
     undecided = INCONCLUSIVE.get(report.settings.get("inconclusive"), "error")
     outcomes = {**OUTCOMES, Verdict.INCONCLUSIVE: undecided}
     root = Element("testsuites", name=f"brdf-check {report.command}")
+    times = iter(_times(report))
     for group in grouped(report.results):
-        _suite(root, group, report, outcomes)
+        _suite(root, group, report, outcomes, [next(times) for _ in group])
+    root.set("time", f"{float(report.measured.get('seconds') or 0.0):.3f}")
     counts = [_counts(suite) for suite in root]
     for name in ("tests", "failures", "errors"):
         root.set(name, str(sum(c[name] for c in counts)))
@@ -36,22 +40,31 @@ def render(report: Report) -> str:
 
 
 def _suite(
-    root: Element, group: list[Result], report: Report, outcomes: dict[Verdict, str]
-) -> None:
+    root: Element, group: list[Result], report: Report, outcomes: dict[Verdict, str],
+    times: Sequence[float],
+) -> None:  # fmt: skip
     name = _legal(case(group[0]) or group[0].check)
-    suite = SubElement(root, "testsuite", name=name)
+    suite = SubElement(root, "testsuite", name=name, time=f"{math.fsum(times):.3f}")
     properties = SubElement(suite, "properties")
     for key in ("seed", "samples", "points"):
         value = str(report.settings.get(key, ""))
         SubElement(properties, "property", name=key, value=value)
-    for result in group:
+    for result, seconds in zip(group, times, strict=True):
+        each = f"{seconds / max(1, len(result.findings)):.4f}"
         # a dot separates packages in a class name, so those of numbers and file names must go
         owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
         for finding, title in zip(result.findings, _titles(result), strict=True):
-            test = SubElement(suite, "testcase", classname=owner, name=title)
+            test = SubElement(suite, "testcase", classname=owner, name=title, time=each)
             _tell(test, result, finding, outcomes.get(finding.verdict))
     for key, number in _counts(suite).items():
         suite.set(key, str(number))
+
+
+def _times(report: Report) -> list[float]:
+    """Seconds of each check: what one is asked shares its time evenly."""
+    times = report.measured.get("seconds_of_results")
+    known = isinstance(times, list) and len(times) == len(report.results)
+    return [float(t) for t in times] if known else [0.0] * len(report.results)  # type: ignore[union-attr]
 
 
 def _titles(result: Result) -> list[str]:

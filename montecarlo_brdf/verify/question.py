@@ -128,16 +128,17 @@ def answered(
     progress: Progress | None = None,
 ) -> Report:  # fmt: skip
     """The report of questions, one after another; count: about how many claims each has."""
-    started, results = time.perf_counter(), []
+    started, results, times = time.perf_counter(), [], []
     for k, question in enumerate(questions):
         case = question.case
         probed(case.model, case.p)
         part = part_of(progress, k, len(questions))
-        claims = question.claims(case)
+        claims, began = question.claims(case), time.perf_counter()
         with failure.of_case(case):
             found = decided(claims, plan, case.model.disclaims, count=count, progress=part)
         results.append(question.result(found))
-    return reported(command, told, results, started)
+        times.append(time.perf_counter() - began)
+    return reported(command, told, results, started, times)
 
 
 def decided(
@@ -167,19 +168,25 @@ def judged(
 
 
 def reported(
-    command: str, settings: dict[str, Any], results: list[Result], started: float
-) -> Report:
-    """A finished report; how long it took lies outside `results`."""
-    return Report(command, settings, results, {"seconds": time.perf_counter() - started})
+    command: str, settings: dict[str, Any], results: list[Result], started: float,
+    times: Sequence[float] = (),
+) -> Report:  # fmt: skip
+    """A finished report; how long it, and each result, took lies outside `results`."""
+    measured: dict[str, Any] = {"seconds": time.perf_counter() - started}
+    measured |= {"seconds_of_results": list(times)} if times else {}
+    return Report(command, settings, results, measured)
 
 
 def merged(reports: Sequence[Report]) -> Report:
     """One report of several; the settings are those of the first that has some."""
     first = next((r for r in reports if r.settings), reports[0])
-    measured = {"seconds": sum(r.measured["seconds"] for r in reports)}
+    measured: dict[str, Any] = {"seconds": sum(r.measured["seconds"] for r in reports)}
     if INTERRUPTED in first.measured:
         measured[INTERRUPTED] = any(r.measured.get(INTERRUPTED) for r in reports)
+    times = [t for r in reports for t in r.measured.get("seconds_of_results", [])]
     results = [result for r in reports for result in r.results]
+    if len(times) == len(results):
+        measured["seconds_of_results"] = times
     return Report(first.command, first.settings, results, measured)
 
 

@@ -93,7 +93,8 @@ def run(
     told |= {"tolerances": dict(tolerances)} if tolerances else {}
     results = [task.result(why) for group in groups for task in group]
     _raise_if_nothing_ran(results)
-    report = reported("run", told, results, started)
+    times = [task.seconds for group in groups for task in group]
+    report = reported("run", told, results, started, times)
     report.measured["interrupted"] = interrupted
     return report
 
@@ -126,6 +127,7 @@ class Task:
     begun: bool = False
     done: bool = False
     slow: str = ""  # why the model could not even be evaluated once
+    seconds: float = 0.0  # that it took, side by side with others
     waiting: bool = False  # for the model to return from its first evaluations
 
     @property
@@ -147,13 +149,14 @@ class Task:
         """Decide the claims, each begun before the deadline."""
         name, case, claims = self.question
         repeat = functools.partial(_repeat, case, name, settings)
-        self.begun = True
+        self.begun, began = True, time.perf_counter()
         try:
             with failure.of_case(case):
                 for claim in claims(case):
                     if deadline.over():
                         return
                     self.findings.append(judged(claim, plan, case.model.disclaims, repeat))
+                    self.seconds = time.perf_counter() - began
                     tell()
         except ModelError as error:
             self.findings.append(Finding(name, {}, Verdict.ERROR, note=str(error)))

@@ -10,6 +10,12 @@ from types import SimpleNamespace
 import pytest
 
 from montecarlo_brdf.cli import _terminal
+from montecarlo_brdf.compile import kernel
+
+
+@pytest.fixture(autouse=True)
+def heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("BRDF_CHECK_QUIET")
 
 
 def test_checks_side_by_side_share_a_progress_bar(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -46,3 +52,18 @@ def test_no_progress_without_stderr(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stderr", None)
     with _terminal.progress("test") as update:
         update(0.5)
+
+
+def test_one_is_told_while_a_model_is_compiled(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(_terminal, "LONG", 0.01)
+    for quiet in ("", "1"):
+        monkeypatch.setenv("BRDF_CHECK_QUIET", quiet)
+        with _terminal.progress("test"):
+            for hear in kernel.listeners:
+                hear("my.py")
+            time.sleep(0.1)
+        told = capsys.readouterr().err
+        assert ("compiling my.py: only the first run" in told) == (not quiet)
+        assert not kernel.listeners

@@ -1,0 +1,55 @@
+"""SARIF 2.1.0, which code scanning of GitHub, GitLab and editors reads: a result for each model and
+check that needs attention, on the function that it is about."""
+
+from __future__ import annotations
+
+import json
+from pathlib import PurePath
+from typing import Any
+
+from montecarlo_brdf.judge.finding import Report, Result, Verdict
+from montecarlo_brdf.report.text import case, explanation, line_of, most_telling, statement
+
+LEVELS = {Verdict.ERROR: "error", Verdict.FAIL: "error"}
+LEVELS |= {Verdict.INCONCLUSIVE: "warning", Verdict.KNOWN: "note"}
+
+
+def render(report: Report) -> str:
+    """The report as one run of a tool."""
+    told = [r for r in report.results if r.verdict in LEVELS]
+    rules = list(dict.fromkeys(r.check for r in report.results))
+    driver: dict[str, Any] = {"name": "brdf-check", "rules": [{"id": name} for name in rules]}
+    if version := report.to_dict()["versions"].get("montecarlo_brdf"):
+        driver["version"] = version
+    run = {
+        "tool": {"driver": driver},
+        "columnKind": "utf16CodeUnits",
+        "results": [_result(r, rules.index(r.check)) for r in told],
+    }
+    return json.dumps({"version": "2.1.0", "runs": [run]}, indent=1) + "\n"
+
+
+def _result(result: Result, rule: int) -> dict[str, Any]:
+    finding = most_telling(result)
+    words = [f"{case(result)} {result.check}: {statement(finding)}".strip(), *explanation(finding)]
+    return {
+        "ruleId": result.check,
+        "ruleIndex": rule,
+        "level": LEVELS[Verdict(result.verdict)],
+        "message": {"text": "\n".join(words)},
+        "partialFingerprints": {"case/v1": f"{case(result)} {result.check} {finding.quantity}"},
+        **({"locations": [_location(result)]} if result.source else {}),
+    }
+
+
+def _location(result: Result) -> dict[str, Any]:
+    path = PurePath(result.source["file"])
+    uri = path.as_uri() if path.is_absolute() else _escaped(path.as_posix())
+    region = {"startLine": max(1, line_of(result))}
+    return {"physicalLocation": {"artifactLocation": {"uri": uri}, "region": region}}
+
+
+def _escaped(path: str) -> str:
+    from urllib.parse import quote
+
+    return quote(path)
