@@ -27,20 +27,11 @@ from montecarlo_brdf.vectors import Vec, from_degrees
 
 
 def directional_albedo(
-    model: Model,
-    p: ParameterSet | list[ParameterSet],
-    theta_o_deg: float | Sequence[float],
-    *,
-    phi_o_deg: float = 0.0,
-    sampler: str = "cosine",
-    points: str = "sobol",
-    samples: int = 1 << 16,
-    seed: int = 0,
-    replicates: int = REPLICATES,
-    threads: int = 1,
-    target_error: float | None = None,
-    method: str | None = None,
-) -> Any:
+    model: Model, p: ParameterSet | list[ParameterSet], theta_o_deg: float | Sequence[float], *,
+    phi_o_deg: float = 0.0, sampler: str = "cosine", points: str = "sobol", samples: int = 1 << 16,
+    seed: int = 0, replicates: int = REPLICATES, threads: int = 1,
+    target_error: float | None = None, method: str | None = None,
+) -> Any:  # fmt: skip
     """Directional albedo A(wo) = int f cos(theta_i) dwi, a number, with its error bar.
 
     model: from `load`. p: a parameter set of `model.parameters`, or a list of them. theta_o_deg,
@@ -74,18 +65,10 @@ def directional_albedo(
 
 
 def reverse_albedo(
-    model: Model,
-    p: ParameterSet,
-    theta_i_deg: float,
-    *,
-    phi_i_deg: float = 0.0,
-    sampler: str = "cosine",
-    points: str = "sobol",
-    samples: int = 1 << 16,
-    seed: int = 0,
-    replicates: int = REPLICATES,
-    threads: int = 1,
-) -> Any:
+    model: Model, p: ParameterSet, theta_i_deg: float, *, phi_i_deg: float = 0.0,
+    sampler: str = "cosine", points: str = "sobol", samples: int = 1 << 16, seed: int = 0,
+    replicates: int = REPLICATES, threads: int = 1,
+) -> Any:  # fmt: skip
     """Reverse albedo R(wi) = int f cos(theta_o) dwo: all the light that leaves, for light from wi.
 
     This is what energy conservation bounds by 1; it equals A only if f is reciprocal. model: from
@@ -105,16 +88,9 @@ def reverse_albedo(
 
 
 def bihemispherical_albedo(
-    model: Model,
-    p: ParameterSet,
-    *,
-    sampler: str = "cosine",
-    points: str = "sobol",
-    samples: int = 1 << 16,
-    seed: int = 0,
-    replicates: int = REPLICATES,
-    threads: int = 1,
-) -> Any:
+    model: Model, p: ParameterSet, *, sampler: str = "cosine", points: str = "sobol",
+    samples: int = 1 << 16, seed: int = 0, replicates: int = REPLICATES, threads: int = 1,
+) -> Any:  # fmt: skip
     """Radiosity over irradiance under uniform light, 2 int A(mu) mu dmu, between 0 and 1.
 
     model: from `load`. p: a parameter set of `model.parameters`. sampler: "uniform", "cosine",
@@ -138,12 +114,9 @@ def _one(model: Model, p: ParameterSet, of: Quantity, fixed: Vec, sampler: str, 
 
 
 def hemisphere_integral(
-    function: Function,
-    p: ParameterSet = NoParams(),
-    *,
-    sampler: str = "uniform",
+    function: Function, p: ParameterSet = NoParams(), *, sampler: str = "uniform",
     plan: Plan = Plan(),
-) -> Estimate:
+) -> Estimate:  # fmt: skip
     """The integral of a function over the hemisphere, per solid angle.
 
     function: of a unit vector w and p; numba must be able to compile it. p: what it gets, a
