@@ -17,7 +17,8 @@ PACKAGE = Path(montecarlo_brdf.__file__).parent
 TABLE = PACKAGE.parent / "docs" / "statistics.md"
 FOLDERS = ("checks", "cases", "judge", "stability", "verify")
 ESTIMATE = ("adaptive", "ascent", "ends", "plan", "quadrature", "trust")
-FILES = ("statistics", *(f"estimate/{name}" for name in ESTIMATE))
+OTHERS = ("arithmetic/batch", "arithmetic/types", "sampling/slopes", "statistics")
+FILES = (*OTHERS, *(f"estimate/{name}" for name in ESTIMATE))
 HINTS = {"checks/_hints", "judge/hint", "verify/bench", "verify/failure"}  # decide nothing
 #: where numbers stand in a kernel's rows
 PLACES = {
