@@ -47,7 +47,9 @@ def claims(case: Case) -> Iterator[Claim]:
 
 def _unasked(model: Model) -> Iterator[Claim]:
     """What no search reaches, so that nobody takes a pass for more than it is."""
-    for name in model.Params._fields:  # type: ignore[attr-defined]
+    defaults = model.Params._field_defaults  # type: ignore[attr-defined]
+    channels = {n for n, value in defaults.items() if isinstance(value, tuple)}
+    for name in (n for n in model.Params._fields if n not in channels):  # type: ignore
         if not model.verified and not all(map(math.isfinite, model.domain.get(name, (math.inf,)))):
             reason = f"no other {name} is asked: declare a domain with two ends"
             yield Skip(f"other {name}", reason)

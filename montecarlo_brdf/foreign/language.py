@@ -34,6 +34,12 @@ def binaries(
         yield one.name, binary
 
 
+def macros(path: Path) -> dict[str, str]:
+    """What a compiler defines by itself."""
+    known = {"__SLANG_COMPILER__": "1", "__HLSL_VERSION": "2018"}
+    return known if path.suffix in SLANG else {"__VERSION__": "450", "VULKAN": "100"}
+
+
 def shown(path: Path) -> str:
     """A path as #line may have it."""
     return str(path).replace("\\", "/").replace('"', "")

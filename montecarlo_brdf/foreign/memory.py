@@ -54,7 +54,7 @@ class Row(NamedTuple):
     table: str
     begin: str
     size: int
-    length: int
+    kind: Kind
 
 
 class Memory:
@@ -209,7 +209,7 @@ class Memory:
                 kind = inner.parts[0]
                 terms.append(f"{index} * {module.types.size(kind)}")
         size = module.types.size(kind)
-        return Row(self._table(constant), " + ".join(terms), size, len(constant.numbers))
+        return Row(self._table(constant), " + ".join(terms), size, module.types.scalar(kind))
 
     def _table(self, constant: Constant) -> str:
         for name, numbers in self._tables.items():
@@ -221,7 +221,9 @@ class Memory:
 
     def _looked_up(self, row: Row) -> list[str]:
         begin = self.code.once(row.begin)
-        return [f"{row.table}[{begin} + {k}]" for k in range(row.size)]
+        found = [f"{row.table}[{begin} + {k}]" for k in range(row.size)]
+        whole = row.kind is not Kind.FLOAT
+        return found if whole else [self.code.module.numerals.converted(x) for x in found]
 
 
 def _constant_arrays(code: Code) -> dict[int, Constant]:

@@ -50,12 +50,13 @@ class Shader(NamedTuple):
 
 def opened(path: Path) -> Shader:
     """A shader's file, read and described. Raises Complaint."""
-    includes = Includes([path.parent], shown)
+    includes = Includes([path.parent], shown, language.macros(path))
     text = includes.text(path)
     if not text.strip():
         raise Complaint("it is empty")
     said = read(text)
     includes.folders += [path.parent / folder for folder in said.folders]
+    includes.defined(said.defines)
     if path.suffix == EXPLORER:
         said, text = explorer.described(text, path.name, said)
     sources = [_source(includes, path.parent / one) for one in said.sources]
