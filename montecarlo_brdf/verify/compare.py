@@ -50,7 +50,7 @@ def compare(
     model does not run, TooSlow if it does not return.
     """
     angles = [check_theta(a) for a in theta_o_deg]
-    settings = Settings(seed=seed, tolerance=tolerance)
+    settings = Settings.of(seed=seed, tolerance=tolerance)
     if declared is not None and not (model.albedo and 0.0 < declared < math.inf):
         what = f"model {model.name} declares no albedo(cos_theta_o, p)"
         bad = f"a declared albedo needs a tolerance above 0, not {declared:g}"

@@ -85,7 +85,7 @@ def converge(
     theta = check_theta(theta_o_deg)
     samplers = chosen("sampler", sampler, (*charts_of(model), *samplers_of(model)))
     sets = chosen("point set", points, tuple(SETS))
-    settings = Settings(sets[0], samples, seed, threads)
+    settings = Settings.of(sets[0], samples, seed, threads)
     fewest = max(map(randomisations, sets)) << FIRST
     if samples < fewest:
         one = "one point of a curve"

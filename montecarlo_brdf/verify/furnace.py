@@ -60,7 +60,7 @@ def furnace(
     angles: Any = theta_o_deg if isinstance(theta_o_deg, (list, tuple)) else [theta_o_deg]
     thetas = [check_theta(a) for a in angles]
     samplers = _samplers(model, sampler)
-    settings = Settings(points, samples, seed, threads, tolerance, target_error, method, sums)
+    settings = Settings.of(points, samples, seed, threads, tolerance, target_error, method, sums)
     only = None if sampler == "all" else samplers
     cases = [
         Case(model.of(one), one, thetas, phi_o_deg, only, tolerance, seed=seed)

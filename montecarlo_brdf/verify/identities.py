@@ -40,7 +40,7 @@ def identities(
 
     Returns a Report with one Result. Raises UserError for a bad value.
     """
-    settings = Settings(points, samples, seed, threads, tolerance)
+    settings = Settings.of(points, samples, seed, threads, tolerance)
     started = time.perf_counter()
     found = list(claims(AGREEMENT_TOLERANCE if tolerance is None else tolerance))
     findings = decided(found, settings.plan, {}, count=len(found), progress=progress)

@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from montecarlo_brdf.cases.case import Case
@@ -35,47 +35,37 @@ Sets: TypeAlias = "NamedTuple | list[Any] | None"  # one parameter set, several,
 Repeat = Callable[[Finding], str | None]  # the command line that gives a finding again
 
 
-@dataclass(frozen=True)
-class Settings:
-    """Everything that a question takes besides its subject and its places.
+class Settings(NamedTuple):
+    """Everything that a question takes besides its subject and its places."""
 
-    Raises UserError for a value that is not allowed.
-    """
+    plan: Plan
+    tolerance: float | None  # None: each claim's own
 
-    points: str = "sobol"
-    samples: int = SAMPLES
-    seed: int = 0
-    threads: int | None = None  # None: all processors
-    tolerance: float | None = None  # None: each claim's own
-    target_error: float | None = None  # relative
-    method: str | None = None  # a `Choice`; None: AUTO with a target
-    sums: PartialSums | None = None
-    effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at
-
-    def __post_init__(self) -> None:
-        check_points(self.points)
-        threads, seed, tolerance = self.threads, self.seed, self.tolerance
+    @classmethod
+    def of(
+        cls, points: str = "sobol", samples: int = SAMPLES, seed: int = 0,
+        threads: int | None = None, tolerance: float | None = None,
+        target_error: float | None = None, method: str | None = None,
+        sums: PartialSums | None = None, effort: float = 1.0,
+    ) -> Settings:  # fmt: skip
+        """As a caller says it. Raises UserError for a value that is not allowed."""
+        named = check_points(points)
         if threads is not None and not (isinstance(threads, int) and 1 <= threads <= 1024):
             raise UserError(f"threads must be a whole number from 1 to 1024, not {threads}")
         if not isinstance(seed, int) or not 0 <= seed < 1 << 64:
             raise UserError(f"seed must be a whole number from 0 to 2^64 - 1, not {seed}")
-        check_samples(self.samples)
-        check_method(self.method, self.target_error)
+        check_samples(samples)
+        choice = check_method(method, target_error)
         if tolerance is not None and not 0.0 <= tolerance < 1.0:
             raise UserError(f"tolerance must be a number in [0, 1), not {tolerance}")
-        number = isinstance(self.effort, int | float) and not isinstance(self.effort, bool)
-        if not (number and 0.0 < self.effort <= 1.0):
-            raise UserError(f"effort must be a number in (0, 1], not {self.effort}")
-
-    @property
-    def plan(self) -> Plan:
-        """How an estimate is sampled."""
-        return Plan(
-            points=check_points(self.points), samples=self.samples, seed=self.seed,
-            threads=all_threads() if self.threads is None else self.threads,
-            target_error=self.target_error, method=check_method(self.method, self.target_error),
-            sums=self.sums, effort=self.effort,
+        number = isinstance(effort, int | float) and not isinstance(effort, bool)
+        if not (number and 0.0 < effort <= 1.0):
+            raise UserError(f"effort must be a number in (0, 1], not {effort}")
+        plan = Plan(
+            named, samples, seed=seed, threads=threads or all_threads(),
+            target_error=target_error, method=choice, sums=sums, effort=effort,
         )  # fmt: skip
+        return cls(plan, tolerance)
 
     def told(self) -> dict[str, Any]:
         """What results depend on, for a report; the number of threads is not among it."""
@@ -87,10 +77,11 @@ class Settings:
             told |= {"target_error": plan.target_error, "method": plan.method}
         return told
 
-    def options(self, default: Settings) -> list[str]:
+    def options(self, samples: int = SAMPLES) -> list[str]:
         """What of points, samples, seed and effort a command line must say: no default."""
+        plan, default = self.plan, Plan(samples=samples)
         names = ("points", "samples", "seed", "effort")
-        said = {n: getattr(self, n) for n in names if getattr(self, n) != getattr(default, n)}
+        said = {n: getattr(plan, n) for n in names if getattr(plan, n) != getattr(default, n)}
         return [word for name, value in said.items() for word in (f"--{name}", str(value))]
 
     def tolerance_option(self) -> list[str]:

@@ -51,7 +51,7 @@ def radiance(
     Returns a Report with one Result; radiances in the unit of the scene's lights. Raises UserError
     for a bad value, ModelError if a model fails, TooSlow if one does not return.
     """
-    settings = Settings(points, samples, seed, threads, tolerance)
+    settings = Settings.of(points, samples, seed, threads, tolerance)
     started = time.perf_counter()
     for lobe in as_lobes(scene).lobes:
         for p in dict.fromkeys(lobe.sets):
@@ -111,7 +111,7 @@ def _repeat(scene: Scene, settings: Settings, skip: bool, finding: Finding) -> s
     words = ["brdf-check", "radiance", *scene.words]
     angles = [finding.where[k] for k in ("theta_o_deg", "theta_i_deg") if k in finding.where]
     words += [word for theta in angles for word in ("--theta-o", exactly(theta))]
-    words += [*settings.options(Settings()), *settings.tolerance_option()]
+    words += [*settings.options(), *settings.tolerance_option()]
     return shlex.join(words if skip else [*words, "--no-skip"])
 
 

@@ -9,7 +9,7 @@ import functools
 import shlex
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from montecarlo_brdf import checks
@@ -73,7 +73,7 @@ def run(
     asked = [name for name in checks.names() if name in asked]
     asked = checks.asked(model) if asked == checks.names() else asked
     angles = [check_theta(a) for a in theta_o_deg]
-    settings = Settings(points, samples, seed, threads, tolerance, effort=effort)
+    settings = Settings.of(points, samples, seed, threads, tolerance, effort=effort)
     allowed = _allowed(settings, chosen("check", [*tolerances], checks.names()), tolerances)
     started = time.perf_counter()
     groups = []
@@ -107,7 +107,7 @@ def _allowed(
     values = [n for n in checks.names() if checks.find(n).PROPERTY not in LAWS]
     found = {} if settings.tolerance is None else dict.fromkeys(values, settings.tolerance)
     for name in named:
-        replace(settings, tolerance=tolerances[name])  # refuses what is no tolerance
+        Settings.of(tolerance=tolerances[name])  # refuses what is no tolerance
     return {**found, **tolerances}
 
 
@@ -224,7 +224,7 @@ def _repeat(case: Case, name: str, settings: Settings, finding: Finding) -> str:
         words += [] if key in free else ["-p", f"{key}={'/'.join(map(str, values))}"]
     words += ["--theta-o", ",".join(map(exactly, case.theta_o_deg))]
     words += ["--phi-o", exactly(case.phi_o_deg)] if case.phi_o_deg else []
-    words += settings.options(Settings(samples=SAMPLES))
+    words += settings.options(SAMPLES)
     words += ["--against", case.against.name] if case.against else []
     if case.tolerance is not None:
         words += ["--tolerance", f"{name}={exactly(case.tolerance)}"]
