@@ -47,3 +47,10 @@ def test_a_run_of_little_effort_says_so_and_looks_at_less(cli: Command) -> None:
 def test_effort_is_a_share(effort: float) -> None:
     with pytest.raises(UserError, match=r"effort must be a number in \(0, 1\]"):
         mb.run(mb.load("lambert"), effort=effort)
+
+
+@pytest.mark.parametrize("tolerance", [-1.0, 1.0, math.nan])
+def test_tolerances_of_checks_are_shares(tolerance: float) -> None:
+    with pytest.raises(UserError, match=r"tolerance must be a number in \[0, 1\)"):
+        mb.run(mb.load("lambert"), names=("energy",), tolerances={"energy": tolerance})
+
