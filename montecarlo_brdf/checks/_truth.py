@@ -76,13 +76,18 @@ def same_f(
     phi_deg: float = 0.0,
     seed: int = 0,
     target: float = TARGET,
+    sure: bool = False,
 ) -> Reference | None:
     """A(wo) by a quadrature of f: it can refute samplers and estimators, not f itself.
 
     None where the quadrature does not resolve f well enough to judge anything by. Another seed
     gives another quadrature, to a relative error of `target` where that can be.
+    sure: with an error that also covers another one.
     """
-    found = quadrature(model, one, from_degrees(theta_deg, phi_deg), False, seed, target)
+    fixed = from_degrees(theta_deg, phi_deg)
+    found = quadrature(model, one, fixed, False, seed, target)
+    if sure:
+        found = covering(found, quadrature(model, one, fixed, False, seed + 1, target))
     return as_reference(found, AGREEMENT_TOLERANCE)
 
 
@@ -114,9 +119,12 @@ def quadrature(
 
 def confirmed(model: Model, one: Parameters, fixed: Vec, reverse: bool = False) -> Integral:
     """The same, with an error that also covers another quadrature."""
-    first, other = (quadrature(model, one, fixed, reverse, seed) for seed in (0, 1))
-    apart = abs(first.value - other.value) + other.error
-    return first._replace(error=max(first.error, apart))
+    return covering(*(quadrature(model, one, fixed, reverse, seed) for seed in (0, 1)))
+
+
+def covering(one: Integral, other: Integral) -> Integral:
+    """The first of two, with an error that also covers the other."""
+    return one._replace(error=max(one.error, abs(one.value - other.value) + other.error))
 
 
 def integral(

@@ -144,8 +144,8 @@ def reason_unfit(
         return Unfit(f"a lobe that {sampler} sampling did not hit once in {e.samples} samples")
     if not e.mean > 0.0:
         return None
-    if not SQUARED[0] < e.mean < SQUARED[1]:
-        return Unfit(f"values of {e.mean:.0e}, whose squares leave the range of numbers")
+    if beyond := unsquared(e):
+        return beyond
     if sampler not in SCALE:
         return _few(sampler, e, e.second_moment, signed=sight.signed)
     squares = max(e.second_moment, second.mean if second else 0.0)
@@ -163,6 +163,13 @@ def _blind(sampler: Sampler, e: Estimate, squares: float, sight: Sight) -> Unfit
     expected = sight.largest(sampler)
     hardly = None if sight.signed else hardly_hit(sampler, e, expected)
     return hardly or _few(sampler, e, squares, expected, sight.signed)
+
+
+def unsquared(e: Estimate) -> Unfit | None:
+    """Whether a mean is so small or large that its spread is none."""
+    if SQUARED[0] < e.mean < SQUARED[1]:
+        return None
+    return Unfit(f"values of {e.mean:.0e}, whose squares leave the range of numbers")
 
 
 def hardly_hit(sampler: str, e: Estimate, expected: float) -> Unfit | None:

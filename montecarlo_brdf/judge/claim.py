@@ -113,6 +113,7 @@ class Slope(NamedTuple):
     levels: list[dict[str, Any]]  # the errors as a finding shows them
     note: str
     finite: bool = True  # whether all errors are numbers
+    doubt: str | None = None  # why a slope that is too flat refutes nothing
 
     def half_width(self, level: float) -> float:
         """Half the width of the slope's interval."""

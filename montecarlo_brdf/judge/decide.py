@@ -88,12 +88,14 @@ def _slope(claim: SlopeClaim, plan: Plan) -> Finding:
     """Held if the shown interval lies below the claim, refuted if that of SLOPE_LEVEL lies above
     it."""
     found, expected = claim.measure(plan), claim.expected
-    verdict = _slope_verdict(found, expected.value + claim.tolerance)
+    verdict, note = _slope_verdict(found, expected.value + claim.tolerance), found.note
+    if verdict == Verdict.FAIL and found.doubt:
+        verdict, note = Verdict.INCONCLUSIVE, found.doubt
     return Finding(
         claim.quantity, dict(claim.where), verdict, Bound.AT_MOST,
         found.value, found.stderr, expected.value, claim.tolerance,
         level=SLOPE_LEVEL, samples=found.samples, reference=expected.told(),
-        estimators=found.levels, note=found.note,
+        estimators=found.levels, note=note,
     )  # fmt: skip
 
 

@@ -166,7 +166,11 @@ def reason_unfit(
         return None
     if e.mean == 0.0 and not e.largest:
         return f"no sample of {e.samples} met light"
-    unfit = trust.few_carry(work.method, e, e.second_moment) or _hidden(work, e, p, shape, wo)
+    unfit = (
+        trust.unsquared(e)
+        or trust.few_carry(work.method, e, e.second_moment)
+        or _hidden(work, e, p, shape, wo)
+    )
     return unfit.reason if unfit else None
 
 

@@ -23,11 +23,12 @@ from montecarlo_brdf.estimate.plan import Plan, Progress, check_theta
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import charts_of, integrand, samplers_of
 from montecarlo_brdf.judge.claim import Kind, Reference, Slope, SlopeClaim
-from montecarlo_brdf.judge.decide import SHOWN
+from montecarlo_brdf.judge.decide import LEVEL, SHOWN
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import DIRECTIONS, Sampler
 from montecarlo_brdf.sampling.points import SETS, PointSet
+from montecarlo_brdf.statistics import quantile
 from montecarlo_brdf.verify.question import (
     Question,
     Sets,
@@ -113,7 +114,8 @@ def claims(case: Case, samplers: Sequence[str], sets: Sequence[str]) -> Iterator
         smooth = DIRECTIONS[Sampler(sampler)].periodic and not kinked
         for points in sets:
             rate = CLAIMS[_claimed_as(case, sampler, points)][0 if smooth else 1]
-            curve = Curve(case, sampler, points, smooth, known.value, floor)
+            blind = known.kind is Kind.SAME_F and sampler != Sampler.OWN
+            curve = Curve(case, sampler, points, smooth, known.value, floor, blind)
             yield SlopeClaim(
                 "slope", {**case.where(theta_o_deg=theta), "sampler": sampler, "points": points},
                 Reference(rate, floor, known.kind, known.source), SLACK, curve.slope,
@@ -124,7 +126,7 @@ def reference_of(case: Case) -> Reference:
     """The reference; for a model without one, an adaptive estimate with its own error bar."""
     (theta,) = case.theta_o_deg
     place = case.model, case.one, theta, case.phi_o_deg
-    found = _truth.independent(*place) or _truth.same_f(*place, target=FINE)
+    found = _truth.independent(*place) or _truth.same_f(*place, target=FINE, sure=True)
     if found is None or not found.value:
         e = directional_albedo(
             case.model, case.one, theta, phi_o_deg=case.phi_o_deg, target_error=ESTIMATED
@@ -149,6 +151,7 @@ class Level(NamedTuple):
     error: float  # root mean square
     uncertainty: float  # of log2(error)
     each: tuple[float, ...]
+    apart: float  # by how much their mean surely differs from the reference
 
 
 class Line(NamedTuple):
@@ -169,6 +172,7 @@ class Curve(NamedTuple):
     smooth: bool
     truth: float
     floor: float  # relative error that the truth itself may have
+    of_f_alone: bool = False  # whether the truth is of the same f, and nothing else is sampled
 
     def slope(self, plan: Plan) -> Slope:
         """The slope with what a finding tells; plan.samples is the most that a level may take."""
@@ -178,7 +182,7 @@ class Curve(NamedTuple):
         found = Slope(
             fit.slope, fit.stderr, fit.dof, samples=levels[-1].samples if levels else 0,
             levels=[_row(v) for v in levels], note="",
-            finite=not any(math.isnan(v.error) for v in levels),
+            finite=not any(math.isnan(v.error) for v in levels), doubt=self.doubt(levels),
         )  # fmt: skip
         return found._replace(note=self.note(found, levels, line))
 
@@ -201,12 +205,25 @@ class Curve(NamedTuple):
         stream = (NAME, self.sampler, n)
         wo = case.wo(case.theta_o_deg[0])
         row = estimates(case.model, case.one, wo, means, many, stream)
-        each = tuple(abs(m / self.truth - 1.0) for m in row[0][0].replicates)
+        signed = [m / self.truth - 1.0 for m in row[0][0].replicates]
+        each = tuple(map(abs, signed))
         squares = [e * e for e in each]
         mean = math.fsum(squares) / len(squares)
         spread = math.fsum([(s - mean) ** 2 for s in squares]) / (len(squares) - 1)
         relative = math.sqrt(spread / len(squares)) / mean if mean else 0.0
-        return Level(n, math.sqrt(mean), max(0.5 * relative, LEAST) / math.log(2.0), each)
+        uncertainty = max(0.5 * relative, LEAST) / math.log(2.0)
+        return Level(n, math.sqrt(mean), uncertainty, each, surely_apart(signed))
+
+    def doubt(self, levels: Sequence[Level]) -> str | None:
+        """That two numbers of the tool's own differ, where no slope would say more than that."""
+        if not (self.of_f_alone and levels and levels[-1].apart > self.floor):
+            return None
+        last = levels[-1]
+        return (
+            f"not resolved: {self.sampler} sampling differs by {last.apart:.1e} from the "
+            f"quadrature of the same f, {self.truth:.8g} +- {self.floor * abs(self.truth):.1e}: "
+            f"decide it with furnace --samples {2 * last.samples * randomisations(self.points)}"
+        )
 
     def fitted(self, levels: Sequence[Level]) -> Line | None:
         """The line through the levels that are of use, if there is any."""
@@ -229,6 +246,14 @@ class Curve(NamedTuple):
         few = "too few errors between 10 % and rounding"
         reason = "exact at every N" if worst < CONSTANT else few
         return f"{name}: no slope, {reason}; samples for {text}"
+
+
+def surely_apart(errors: Sequence[float]) -> float:
+    """How far the mean of errors is from 0 beyond half of its interval."""
+    many = len(errors)
+    mean = math.fsum(errors) / many
+    spread = math.fsum((e - mean) ** 2 for e in errors) / (many * (many - 1))
+    return abs(mean) - quantile(LEVEL / 2.0, many - 1) * math.sqrt(spread)
 
 
 def randomisations(points: str) -> int:
