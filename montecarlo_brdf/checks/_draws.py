@@ -14,7 +14,7 @@ import numpy as np
 from montecarlo_brdf.cases import directions, parameters
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
 from montecarlo_brdf.checks._hints import azimuth_named, moved_named, shape_named, wider_named
-from montecarlo_brdf.checks._truth import integral, probes
+from montecarlo_brdf.checks._truth import AIM, integral, probes
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quadrature import Integral
 from montecarlo_brdf.estimate.samplers import weighted
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array, Flags
 
 NAME = "pdf"  # whose streams these are
+#: of the mass; the edge of the rejected region limits how fast the rejected fraction converges
+MASS_TOLERANCE = 5e-4
 #: of u in central differences: rounding of directions, 2^-53, is then below 10^-10 of a difference
 STEP = 1e-5
 #: keeps finite differences away from the poles of u, where their relative error is (STEP/u)^2/8
@@ -89,7 +91,8 @@ def density_integral(case: Case, theta: float, seed: int = 0) -> Integral:
 def density_integral_of(model: Model, one: Parameters, wo: Vec, seed: int = 0) -> Integral:
     """The same for a model, a parameter set and a direction."""
     pdf, fixed = pointwise(model, one).pdf, np.array(wo)
-    return integral(lambda wi: pdf(fixed, wi), wo, probes(model, one, wo, seed=seed), seed)
+    seen = probes(model, one, wo, seed=seed)
+    return integral(lambda wi: pdf(fixed, wi), wo, seen, seed, AIM * MASS_TOLERANCE)
 
 
 def faults(case: Case, theta: float) -> Exact:

@@ -27,7 +27,8 @@ ROUNDING = 4.0 * 2.0**-52
 SOURCE = "adaptive quadrature"
 RESOLVED = 0.25  # of a tolerance: what the error of a quadrature may take of it to judge by
 QUOTABLE = AGREEMENT_TOLERANCE  # relative error up to which a quadrature is an estimator
-TARGET = 0.1 * RESOLVED * AGREEMENT_TOLERANCE  # where f is smooth, errors fall fast
+AIM = 0.1 * RESOLVED  # of a tolerance: where f is smooth, errors of quadratures fall fast
+TARGET = AIM * AGREEMENT_TOLERANCE
 
 
 def albedo(

@@ -111,7 +111,8 @@ def _integral(case: Case, theta: float, name: str, seed: int) -> Integral:
         found: Array = f(fixed, wi) * wi[:, 2] * light
         return found
 
-    return _truth.integral(lit, wo, _truth.probes(case.model, case.one, wo, seed=seed), seed)
+    seen = _truth.probes(case.model, case.one, wo, seed=seed)
+    return _truth.integral(lit, wo, seen, seed, _truth.AIM * TOLERANCE)
 
 
 def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measurement]:

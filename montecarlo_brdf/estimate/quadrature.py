@@ -33,6 +33,7 @@ TAIL = 2  # coefficients of the highest degrees, which tell along which side a c
 ALIKE = 4.0  # sides are both cut where one is rougher than the other by less
 CUT = (0.1, 1e-3)  # of the error allowed: up to that rules must agree, at first and at last
 SPARE = 0.5
+HOPELESS = 0.125  # of all points, where even these are too few
 ROUGHER = 10.0  # of it: what is left where no polynomial fits, and points alone decide
 MOST_CELLS = 2000
 MOST_POINTS = 1 << 21
@@ -71,7 +72,7 @@ def integrate(
     value = mesh.value + rest
     if not math.isfinite(value):
         return Integral(value, math.inf)
-    return Integral(value, max(error, mesh.missed) + ROUNDING * mesh.magnitude)
+    return Integral(value, max(error, mesh.missed) + ROUNDING * abs(value))
 
 
 class Square:
@@ -200,11 +201,6 @@ class Mesh:
         return float(self._cells.fine.sum())
 
     @property
-    def magnitude(self) -> float:
-        """And of its absolute value, about."""
-        return float(np.abs(self._cells.fine).sum())
-
-    @property
     def missed(self) -> float:
         """The integral that probes say to lie beside the polynomials."""
         return float(self._beside.sum())
@@ -214,7 +210,7 @@ class Mesh:
         while len(self._cells.fine) < MOST_CELLS:
             rough = np.abs(self._cells.fine - self._cells.coarse)
             missed = np.bincount(self._home, self._beside, len(rough))
-            allowed = target * self.magnitude
+            allowed = target * abs(self.value)
             if not float((rough + missed).sum()) > allowed:
                 break
             self._cut(rough + missed > 0.5 * allowed / len(rough), missed > rough)
@@ -276,9 +272,9 @@ class Mesh:
             self.refine(share * target)
             left = self._left(rng, many, np.ones(len(self._cells.fine), dtype=int))
             rest, error = _interval(left, width)
-            if not error > target * self.magnitude:
+            if not error > target * abs(self.value):
                 return rest, error
-        most = ROUGHER * target * self.magnitude
+        most = ROUGHER * target * abs(self.value)
         if not error > most:
             return rest, error
         goal = SPARE * most / width  # spreads are known from few points
@@ -318,8 +314,8 @@ def _strata(spread: Array, error: float, points: float) -> Places:
     n^-3/4: then the fewest are needed where n goes like the spread of one to the 4/5.
     """
     each = spread**0.8
-    needed = (float(each.sum()) / error**2) ** (2.0 / 3.0)
-    share = min(needed, points / float(each.sum()))
+    needed, most = (float(each.sum()) / error**2) ** (2.0 / 3.0), points / float(each.sum())
+    share = needed if needed < most else HOPELESS * most
     found: Places = np.maximum(1, np.ceil(np.sqrt(share * each))).astype(int)
     return found
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import furnace
-from montecarlo_brdf.checks._truth import TARGET, as_measurement
+from montecarlo_brdf.checks._truth import AIM, as_measurement
 from montecarlo_brdf.compile.bind import hole, plain
 from montecarlo_brdf.estimate import probe
 from montecarlo_brdf.estimate.plan import Plan
@@ -65,8 +65,8 @@ def _agreement(
 ) -> MeanClaim:
     """L_o of a channel equals its truth; a quadrature is asked where samples leave that open, and
     another one before one is believed."""
-    fine = TARGET / AGREEMENT_TOLERANCE * (AGREEMENT_TOLERANCE if tolerance is None else tolerance)
-    target = max(FINEST, fine)
+    relative = AGREEMENT_TOLERANCE if tolerance is None else tolerance
+    target = max(FINEST, AIM * relative)
     expected = functools.partial(truth.reference, plan.scene, from_degrees(*view), k)
 
     def afresh(seed: int) -> Reference:
