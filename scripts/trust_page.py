@@ -4,6 +4,7 @@
 """
 from __future__ import annotations
 
+import collections
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -82,6 +83,31 @@ def seeds() -> Iterator[str]:
         verdicts = [totals.get(v, 0) for v in ("pass", "known", "inconclusive", "fail")]
         rows.append([name, asked, *verdicts])
     yield from table("model | seeds per check | pass | known | inconclusive | fail", rows)
+
+
+def skies() -> Iterator[str]:
+    """Verdicts under narrow light."""
+    study = result("skies")
+    totals: dict[str, collections.Counter[str]] = {}
+    for found in study["models"].values():
+        for sky, r in found.items():
+            name, _, rest = sky.partition(":")
+            tilted = rest.count(":") == {"gradient": 0, "quadratic": 0, "linear": 2}.get(name, 1)
+            kind = f"{name}, tilted" if tilted and rest else name
+            totals.setdefault(kind, collections.Counter()).update(r["verdicts"])
+    every = sum(totals.values(), collections.Counter())
+    asked = every.total()
+    yield "## Narrow light\n"
+    yield (
+        f"`brdf-check radiance` of {len(study['models'])} built-in models at their defaults, "
+        f"{', '.join(f'{a:g}' for a in study['angles'])} degrees, under skies from constant to a "
+        "cosine to the power of 10⁷ and caps of 0.01 degrees, around the normal and tilted down to "
+        f"the horizon: of {asked:,} findings {every['fail']} fail and {every['inconclusive']} "
+        f"({100 * every['inconclusive'] / asked:.2g} %) are not resolved. {made(study)}\n"
+    )
+    verdicts = ("pass", "known", "inconclusive", "fail")
+    rows = [[kind, *(found[v] for v in verdicts)] for kind, found in totals.items()]
+    yield from table("sky | pass | known | not resolved | fail", rows)
 
 
 def error_bars() -> Iterator[str]:
@@ -203,6 +229,7 @@ def main() -> None:
     parts = {
         "false_alarms": false_alarms,
         "seeds": seeds,
+        "skies": skies,
         "error_bars": error_bars,
         "coverage_of_methods": methods,
         "resolves": resolves,

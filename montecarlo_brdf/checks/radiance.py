@@ -27,6 +27,7 @@ from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Claim, MeanClaim, Reference, Skip
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import Vec
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ def claims(case: Case) -> Iterator[Claim]:
                 case.tolerated(TOLERANCE) * abs(expected.value),
                 functools.partial(_measure, there, theta, name),
                 property=PROPERTY,
-                fallback=functools.partial(_deterministic, there, theta, name),
+                fallback=_fallback(there, theta, name),
                 afresh=afresh,
             )
 
@@ -97,8 +98,13 @@ def _expected(case: Case, theta: float, name: str, seed: int = 0) -> Reference |
     return _truth.as_reference(_integral(case, theta, name, seed), TOLERANCE)
 
 
+def _fallback(case: Case, theta: float, name: str) -> Callable[[int], Measurement] | None:
+    """Another quadrature, where the model has no sampler that would be asked about."""
+    own = Sampler.OWN in samplers_of(case.model)
+    return None if own else functools.partial(_deterministic, case, theta, name)
+
+
 def _deterministic(case: Case, theta: float, name: str, seed: int) -> Measurement:
-    """Asked where samples leave the claim open."""
     return _truth.as_measurement(*_integral(case, theta, name, 1 + seed))
 
 
