@@ -37,6 +37,8 @@ Examples:
               "this absolute tolerance. [--declared 0.005]")  # fmt: skip
 @_options.seed(help="Of the random directions: a number, or random (printed). [--seed 7]")
 @_options.output_options
+@_options.plot(help="How near every finding came to its tolerance, as PNG, SVG or PDF. "
+               "[--plot compare.png]")  # fmt: skip
 def command(
     model: str, other: str, assignments: tuple[str, ...], theta_o: list[float], phi_o: float,
     tolerance: float | None, declared: float | None, seed: int, output: _options.Output,

@@ -15,6 +15,8 @@ from montecarlo_brdf.cli import _options
 )
 @_options.sampling_options
 @_options.output_options
+@_options.plot(help="How near every finding came to its tolerance, as PNG, SVG or PDF. "
+               "[--plot identities.png]")  # fmt: skip
 def command(sampling: _options.Sampling, output: _options.Output) -> int:
     """Solid angle, projected hemisphere, powers of the cosine, Lambert under a light that is not
     constant: each estimated, with its exact value and a verdict."""

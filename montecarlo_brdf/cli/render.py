@@ -48,7 +48,12 @@ Examples:
 @click.option("--furnace", is_flag=True,
               help="Constant light 0.5 instead of the scene's: a lossless sphere disappears.")
 @click.option("--size", type=WHOLE, default="512", show_default=True,
-              help="Pixels across. [--size 256]")  # fmt: skip
+              help="Pixels across each sphere. [--size 256]")  # fmt: skip
+@click.option("--scale", type=_options.finite("above 0"), default=None,
+              help="With --furnace: the difference at which the colours end [default: the largest "
+              "there is]. [--scale 0.01]")  # fmt: skip
+@click.option("--exposure", type=_options.finite(), default=0.0, show_default=True,
+              help="Powers of two by which a .png is brighter. [--exposure 2]")  # fmt: skip
 @click.option("--samples", type=WHOLE, default="256", show_default=True,
               help="Samples per pixel where pixels are sampled. [--samples 1024]")  # fmt: skip
 @click.option("--camera", metavar="TILT[:AZIMUTH]",
@@ -58,12 +63,12 @@ Examples:
 @_options.threads(help="Threads; results do not depend on it. [--threads 1]")
 def command(
     scene: Path | None, outputs: tuple[Path, ...], spec: str | None, assignments: tuple[str, ...],
-    environment: str | None, furnace: bool, size: int, samples: int, camera: str | None, seed: int,
-    threads: int | None,
+    environment: str | None, furnace: bool, size: int, scale: float | None, exposure: float,
+    samples: int, camera: str | None, seed: int, threads: int | None,
 ) -> int:  # fmt: skip
     """Shade a sphere per pixel from the estimators, and say how exact the picture is.
 
-    With --furnace a second panel shows the signed difference to the light from -10 % to +10 %. A
+    With --furnace a second panel shows the signed difference to the light, with its scale. A
     picture is no verdict: see `brdf-check furnace` and `brdf-check radiance`.
     """
     from montecarlo_brdf.cli._terminal import progress, tell
@@ -78,6 +83,8 @@ def command(
     for name, value, low, high in (("size", size, 8, 4096), ("samples", samples, 1, 1 << 20)):
         if not low <= value <= high:
             raise UserError(f"{name} must be a whole number from {low} to {high}, not {value}")
+    if not (scale is None or 1e-6 <= scale <= 50.0) or abs(exposure) > 64.0:
+        raise UserError("scale must be a number in [1e-6, 50], and exposure in [-64, 64]")
     viewer = from_degrees(*_camera(camera)) if camera else None
     sky = environment or (f"constant:{FURNACE}" if furnace else None)
     if scene is not None:
@@ -105,7 +112,10 @@ def command(
     labels = [label for label, _ in scenes]
     for path in outputs:
         light = FURNACE if furnace else None
-        write_bytes(path, spheres.drawn(spheres.kind_of(path), made, labels, light, columns))
+        content = spheres.drawn(
+            spheres.kind_of(path), made, labels, light, columns, scale, exposure
+        )
+        write_bytes(path, content)
     return 0
 
 

@@ -62,6 +62,8 @@ Examples:
               "[--baseline main.json]")  # fmt: skip
 @functools.partial(_options.sampling_options, allowed=_options.tolerances)
 @_options.output_options
+@_options.plot(help="How near every finding came to its tolerance, as PNG, SVG or PDF. "
+               "[--plot run.png]")  # fmt: skip
 def command(
     spec: str | None, assignments: tuple[str, ...], config: Path | None, names: str | list[str],
     theta_o: list[float], phi_o: float, against: str | None, max_time: float | None, effort: float,

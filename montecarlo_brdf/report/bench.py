@@ -1,15 +1,34 @@
 """A benchmark of methods in words and as a picture: pure functions of its plain data."""
 from __future__ import annotations
 
+import json
 import textwrap
+from pathlib import Path
 from typing import Any
 
+from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.report.pictures.style import COLOURS
 from montecarlo_brdf.report.text import called
 
 #: A line and a marker for each point set, and for "auto"; colours stand for samplers.
 STYLES = {"independent": ":o", "stratified": "-.s", "sobol": "--^", "lattice": "-D", "": "-*"}
 ROW = "{mark} {method:<27} {samples:>9} {error:>9.1e} {seconds:>9.2g} {each:>10.3g}"
+
+
+NEEDED = ("model", "params", "where", "methods", "timings", "reference", "targets", "seeds")
+
+
+def read(path: Path) -> dict[str, Any] | None:
+    """The data of a benchmark in a JSON file; None if it is no file of one."""
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return None
+    if not isinstance(data, dict) or data.get("command") != "bench":
+        return None
+    if missing := [name for name in NEEDED if name not in data]:
+        raise UserError(f"{path} is damaged: it has no {', '.join(missing)}")
+    return data
 
 
 def table(data: dict[str, Any]) -> str:

@@ -10,21 +10,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from montecarlo_brdf.judge.finding import SEVERITY, Bound, Finding, Report, Result, Verdict, worst
+from montecarlo_brdf.judge.finding import SEVERITY, Finding, Report, Result, Verdict, worst
 from montecarlo_brdf.report import pictures, text
 from montecarlo_brdf.report.columns import NO_BREAK, Column
-from montecarlo_brdf.report.pictures import inline
+from montecarlo_brdf.report.pictures import inline, margins
 
 if TYPE_CHECKING:
     from jinja2 import Template
 
 TEMPLATES = Path(__file__).parent / "templates"
+CURVES = ("converge", "furnace", "radiance")  # commands with pictures of their own for each part
 MOST_ROWS = 200  # of a table: the worst of more
 MOST_DOTS = 150  # of a check in a picture
 MOST_LINES = 2000  # of a source
 MOST_DRAWN_FINDINGS = 400  # of a picture
 MOST_DRAWN = 40  # pictures of a page
-DECADES = 4  # each way from the tolerance, of the picture of margins
+DECADES = margins.DECADES
 WIDTH, LEFT, STEP = 640, 150, 24  # of that picture
 
 
@@ -211,7 +212,7 @@ def _drawable(
         some = [r for r in results if r.check == "furnace"]
         if any(math.isfinite(f.value) for r in some for f in r.findings if f.quantity == "A"):
             yield "furnace", some, "Albedo against the viewer's angle, and its error"
-    elif report.command in pictures.FIGURES and report.command != "stress":
+    elif report.command in CURVES:
         yield report.command, list(results), f"The picture of {report.command}"
 
 
@@ -243,12 +244,7 @@ def _dots(findings: Sequence[Finding], y: float) -> list[Dot]:
 def _across(f: Finding) -> float:
     """The place of a finding: its deviation in tolerances, by the logarithm; what is not finite
     stands at the end."""
-    assert f.expected is not None and f.tolerance
-    over = f.value - f.expected
-    share = abs(over) if f.bound == Bound.EQUAL else over if f.bound == Bound.AT_MOST else -over
-    ratio = share / f.tolerance
-    decades = DECADES if math.isnan(ratio) else math.log10(max(ratio, 1e-9))
-    return LEFT + (WIDTH - LEFT - 20) * (min(max(decades, -DECADES), DECADES) / DECADES + 1) / 2
+    return LEFT + (WIDTH - LEFT - 20) * (margins.power(f) / DECADES + 1) / 2
 
 
 def _source(report: Report, results: Sequence[Result]) -> Source | None:

@@ -17,6 +17,7 @@ KINDS = ("png", "svg", "pdf")
 #: command -> the module beside this one whose `figure(report)` draws its reports
 FIGURES = {"converge": "convergence", "furnace": "albedo"}
 FIGURES |= {"radiance": "radiance", "stress": "stability"}
+FIGURES |= dict.fromkeys(("compare", "identities", "run"), "margins")
 
 
 class CannotDraw(UserError):

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST_SERIES = len(style.CHANNELS)
-KEY = "L_o +- 3 stderr,\nline: truth"
 
 
 def figure(report: Report) -> Figure:
@@ -23,22 +22,18 @@ def figure(report: Report) -> Figure:
     total = series(result.findings)
     shown = list(total.items())[:MOST_SERIES]
     colours = style.CHANNELS if len(total) > 1 else (style.BLUE,)
-    for (label, rows), colour in zip(shown, colours, strict=False):
-        _draw(top, bottom, rows, label, colour)
+    for (label, rows), colour, marker in zip(shown, colours, style.MARKERS, strict=False):
+        _draw(top, bottom, rows, label, colour, marker)
     more = f" ({MOST_SERIES} of {len(total)} series)" if len(total) > MOST_SERIES else ""
-    top.set_title(f"{result.model}{more}, verdict {report.verdict}", fontsize=10)
+    top.set_title(style.wrapped(f"{result.model}{more}, {style.verdict(report)}", 90), fontsize=10)
     top.set_ylabel("L_o in the unit of the light's radiance")
     top.set_ylim(0.0, _headroom([f.value for _, rows in shown for f in rows]))
     bottom.set_yscale("log")
     bottom.set_ylabel("|L_o - truth|")
-    bottom.set_title(f"points: error (0 is drawn at {style.SMALLEST:g}), lines: stderr", fontsize=9)
     style.grid(top, bottom)
     values = [f.value for f in result.findings if f.quantity == "L_o"]
     style.say_what_is_not_finite(top, values)
-    if not shown:
-        return figure
-    # beside the panel: inside it a legend hides points, and below it needs none
-    top.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0), title=KEY, title_fontsize=8)
+    style.explain(figure, top, bottom)
     return figure
 
 
@@ -58,12 +53,20 @@ def series(findings: list[Finding]) -> dict[str, list[Finding]]:
     return {k: sorted(v, key=lambda f: float(f.where["theta_o_deg"])) for k, v in found.items()}
 
 
-def _draw(top: Axes, bottom: Axes, rows: list[Finding], label: str, colour: str) -> None:
+def _draw(
+    top: Axes, bottom: Axes, rows: list[Finding], label: str, colour: str, marker: str
+) -> None:
     theta = style.angles(rows)
     values, bars = [f.value for f in rows], [style.bar(f) for f in rows]
-    top.errorbar(theta, values, bars, fmt="o", markersize=4, capsize=2, color=colour, label=label)
+    top.errorbar(theta, values, bars, fmt=marker, markersize=4, capsize=2, color=colour,
+                 label=f"{label} (+- 3 stderr)")  # fmt: skip
+    # known at these views alone: no line between them says more
     truth = [math.nan if f.expected is None else f.expected for f in rows]
-    top.plot(theta, truth, color=colour, linewidth=1.0)
-    bottom.plot(theta, [style.error(f) for f in rows], "o", markersize=4, color=colour)
+    top.plot(theta, truth, "_", color=colour, markersize=14, label="dash above: truth")
+    bottom.plot(theta, [style.error(f) for f in rows], marker, markersize=4, color=colour,
+                label=f"marker below: error (0 at {style.SMALLEST:g})")  # fmt: skip
     errors = [max(style.bar(f) / 3.0, style.SMALLEST) for f in rows]
-    bottom.plot(theta, errors, color=colour, linewidth=1.0)
+    bottom.plot(theta, errors, color=colour, linewidth=1.0, label="line below: stderr")
+    tolerances = [math.nan if f.tolerance is None else f.tolerance for f in rows]
+    bottom.plot(theta, tolerances, color=colour, linewidth=0.8, linestyle=style.DASHES,
+                label="dashed: tolerance")  # fmt: skip

@@ -7,13 +7,13 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.judge.finding import Report
-from montecarlo_brdf.report.pictures.style import SMALLEST
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
     from matplotlib.figure import Figure
 
+LEAST = 0.5  # roundings: what is less is drawn as this
 #: theta_o in degrees, value of the parameter, relative error (of JSON, None if it is not finite)
 Points = Iterable[tuple[float, ...]]
 
@@ -24,24 +24,25 @@ class Map(NamedTuple):
     title: str
     parameter: str
     points: Points
+    eps: float  # one rounding of the precision
 
 
 def figure(report: Report) -> Figure:
     """One map per model and precision, (theta_o, roughness or exponent) against worst error."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(12.0, 6.5), layout="constrained")
     shown = maps(report)
     columns = max(1, min(2, len(shown)))
     rows = max(1, -(-len(shown) // columns))
+    figure = Figure(figsize=(6.2 * columns, 3.3 * rows + 0.5), layout="constrained")
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
-    drawn = [_panel(axes, one) for axes, one in zip(panels, shown, strict=False)]
+    for axes, one in zip(panels, shown, strict=False):
+        figure.colorbar(_panel(axes, one), ax=axes, label="worst error in roundings")
     for axes in panels[len(shown) :]:
         axes.set_axis_off()
-    figure.suptitle(f"Errors above 1 and NaN are drawn as 1, no error as {SMALLEST:g}.", fontsize=9)
-    if shown:
-        figure.colorbar(drawn[0], ax=panels.tolist(), label="worst relative error")
-    else:
+    words = "Worst error of f in roundings of each precision; what is NaN or above 1 counts as 1."
+    figure.suptitle(words, fontsize=9)
+    if not shown:
         why = "no parameter of this model sharpens its lobe: nothing to map"
         panels[0].set_title(why, fontsize=9)
     return figure
@@ -50,7 +51,7 @@ def figure(report: Report) -> Figure:
 def maps(report: Report) -> list[Map]:
     """Of every model and precision that has one."""
     return [
-        Map(f"{result.model}, {measured['name']}", measured["parameter"], points)
+        Map(f"{result.model}, {measured['name']}", measured["parameter"], points, measured["eps"])
         for result, precisions in zip(report.results, report.measured["precisions"], strict=True)
         for measured, points in zip(precisions, result.curves, strict=False)
         if points
@@ -59,11 +60,15 @@ def maps(report: Report) -> list[Map]:
 
 def _panel(axes: Axes, one: Map) -> QuadMesh:
     """A cell per angle and value: both are a few chosen numbers over many decades."""
-    cells = _worst(one.points)
+    cells = {k: max(e / one.eps, LEAST) for k, e in _worst(one.points).items()}
     angles = sorted({x for x, _ in cells}, reverse=True)
     values = sorted({v for _, v in cells})
     grid = [[cells.get((x, v), math.nan) for x in angles] for v in values]
-    drawn = axes.pcolormesh(grid, norm="log", vmin=SMALLEST, vmax=1.0, cmap="viridis")
+    most = max(100.0, *cells.values())
+    drawn = axes.pcolormesh(grid, norm="log", vmin=LEAST, vmax=most, cmap="viridis")
+    if max(cells.values()) <= 1.0:
+        axes.text(0.5, 0.5, "no error above one rounding", transform=axes.transAxes, ha="center",
+                  va="center", color="white", fontsize=9)  # fmt: skip
     axes.set_xticks([k + 0.5 for k in range(len(angles))], [f"{x:.2g}" for x in angles],
                     rotation=90)  # fmt: skip
     axes.set_yticks([k + 0.5 for k in range(len(values))], [f"{v:.3g}" for v in values])
@@ -82,6 +87,6 @@ def _worst(points: Points) -> dict[tuple[float, float], float]:
     cells: dict[tuple[float, float], float] = {}
     for theta, value, error in points:
         place = float(f"{max(90.0 - theta, 1e-7):.2g}"), value
-        shown = 1.0 if error is None or math.isnan(error) else min(max(error, SMALLEST), 1.0)
-        cells[place] = max(shown, cells.get(place, SMALLEST))
+        shown = 1.0 if error is None or math.isnan(error) else min(error, 1.0)
+        cells[place] = max(shown, cells.get(place, 0.0))
     return cells

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from montecarlo_brdf.judge.finding import Finding
+from montecarlo_brdf.judge.finding import Finding, Report, Verdict, worst
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -18,8 +20,9 @@ ORANGE, SKY, BLACK = "#E69F00", "#56B4E9", "#000000"
 GREY = "0.4"
 
 COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
+MARKERS = "os^DvPX"
 #: a colour and a marker per parameter set
-SERIES = tuple(zip(COLOURS, "os^DvPX", strict=True))
+SERIES = tuple(zip(COLOURS, MARKERS, strict=True))
 #: one per point set
 POINTS = {"independent": (BLACK, "o"), "stratified": (ORANGE, "s")}
 POINTS |= {"sobol": (BLUE, "^"), "lattice": (VERMILION, "D")}
@@ -41,13 +44,47 @@ def panels(width: float) -> tuple[Figure, Axes, Axes]:
     return figure, top, bottom
 
 
-def say_what_is_not_finite(axes: Axes, values: Sequence[float]) -> None:
+def wrapped(text: str, width: int, most: int = 4) -> str:
+    """Text on several lines; what needs more of them ends in dots."""
+    return "\n".join(
+        textwrap.wrap(text, width, max_lines=most, placeholder=" ...", break_on_hyphens=False)
+    )
+
+
+def joined(*parts: str) -> str:
+    """Parts that say something, with commas."""
+    return ", ".join(part for part in parts if part)
+
+
+def verdict(report: Report) -> str:
+    """'verdict fail'; of what the models' papers do not promise 'known'."""
+    worst_found = worst(f.verdict for r in report.results for f in r.findings)
+    if worst_found == Verdict.KNOWN:
+        return "known: what was published promises no more"
+    return f"verdict {report.verdict}"
+
+
+def explain(figure: Figure, *panels: Axes) -> None:
+    """One legend below the panels, where it hides nothing; every line style named once."""
+    named: dict[str, Artist] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            named.setdefault(wrapped(label, 48), handle)
+    if named:
+        longest = max(len(line) for label in named for line in label.split("\n"))
+        columns = 3 if longest < 30 else 2
+        figure.legend(
+            [*named.values()], [*named], loc="outside lower center", ncols=columns, fontsize=8
+        )
+
+
+def say_what_is_not_finite(axes: Axes, values: Sequence[float], size: int = 9) -> None:
     """What is NaN or infinite has no place in a picture: say so in it."""
     bad = sum(not math.isfinite(v) for v in values)
     if bad:
         words = "all values are" if bad == len(values) else f"{bad} of {len(values)} values are"
-        axes.text(0.02, 0.96, f"{words} NaN or infinite: not drawn", transform=axes.transAxes,
-                  va="top", color=VERMILION, fontsize=9)  # fmt: skip
+        axes.text(0.02, 0.96, f"{words} NaN or infinite:\nnot drawn", transform=axes.transAxes,
+                  va="top", color=VERMILION, fontsize=size)  # fmt: skip
 
 
 def grid(*panels: Axes) -> None:
