@@ -51,7 +51,7 @@ def test_a_failing_run_comes_first() -> None:
 
 
 def test_the_file_shown_is_the_file_tested(script: ModuleType) -> None:
-    assert script.FILE.findall(README) == [("my_brdf.py", EXACT)]
+    assert ("my_brdf.py", EXACT) in script.FILE.findall(README)
 
 
 def test_the_python_example_runs(

@@ -11,6 +11,9 @@ from montecarlo_brdf.foreign.entry import Entry
 from montecarlo_brdf.foreign.messages import KEY
 from montecarlo_brdf.foreign.scopes import bare, depths, rewritten
 
+#: compiled first: the functions of later versions take the compiler a tenth of a second to learn
+VERSION = 430
+NEWEST = 460
 #: GLSL allows to define these anew, its compiler does not
 NAMES = """
     sin cos tan asin acos atan pow exp log exp2 log2 sqrt inversesqrt abs sign floor trunc round
@@ -20,7 +23,7 @@ NAMES = """
 BUILT_IN = frozenset(NAMES.split())
 TYPE = r"(?:float|double|int|uint|bool|[biud]?vec[234]|mat[234](?:x[234])?)"
 DEFINITION = re.compile(rf"^[ \t]*(?:void|{TYPE})\s+(\w+)\s*\(", re.M)
-VERSION = re.compile(r"^[ \t]*#[ \t]*version[^\n]*$|^[ \t]*precision\s+\w+\s+\w+\s*;", re.M)
+HEAD = re.compile(r"^[ \t]*#[ \t]*version[^\n]*$|^[ \t]*precision\s+\w+\s+\w+\s*;", re.M)
 EXTENSION = re.compile(r"^[ \t]*#[ \t]*extension[^\n]*$", re.M)
 LAYOUT = r"(?:layout\s*\([^)]*\)\s*)?"
 QUALIFIERS = r"(?:(?:highp|mediump|lowp|flat|smooth|noperspective|centroid|readonly)\s+)*"
@@ -54,7 +57,7 @@ class Program:
         self._parameters = {p.name: p for p in said.parameters}
         code = bare(text)
         extensions = EXTENSION.findall(code)
-        for pattern in (VERSION, EXTENSION, LOCAL_SIZE):
+        for pattern in (HEAD, EXTENSION, LOCAL_SIZE):
             code = pattern.sub("", code)
         code = rewritten(code, BLOCK, _opened)
         code = rewritten(code, NAMED, self._bound)
@@ -66,7 +69,7 @@ class Program:
         names += [f"#define {k} {v}" for k, v in said.defines.items()]
         stub = f'#line 1 "{KEY}stub"\n{said.stub}' if said.stub else ""
         self._text = "\n".join([
-            "#version 450",
+            f"#version {VERSION}",
             *dict.fromkeys(x.strip() for x in extensions),
             "layout(std430, binding = 0) buffer bc_buffer { float bc[]; };",
             "vec4 bc_FragColor;", "#define gl_FragColor bc_FragColor",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -26,18 +25,15 @@ def binaries(
         for one in entry.entries(said):
             yield one.name, _by_slang(program.source(one), path, one, folders, files)
         return
-    program_ = glsl.Program(text, shown(path), said)
+    glsl_program = glsl.Program(text, shown(path), said)
     for one in entry.entries(said):
-        binary, told = glslang.spirv(program_.source(one), shown(path))
-        if not binary:
-            raise messages.complaint(told)
-        yield one.name, binary
+        yield one.name, _by_glslang(glsl_program.source(one), path)
 
 
 def macros(path: Path) -> dict[str, str]:
     """What a compiler defines by itself."""
     known = {"__SLANG_COMPILER__": "1", "__HLSL_VERSION": "2018"}
-    return known if path.suffix in SLANG else {"__VERSION__": "450", "VULKAN": "100"}
+    return known if path.suffix in SLANG else {"__VERSION__": str(glsl.VERSION), "VULKAN": "100"}
 
 
 def shown(path: Path) -> str:
@@ -45,11 +41,23 @@ def shown(path: Path) -> str:
     return str(path).replace("\\", "/").replace('"', "")
 
 
+def _by_glslang(text: str, path: Path) -> bytes:
+    binary, told = glslang.spirv(text, shown(path))
+    if not binary:
+        newer = text.replace(f"#version {glsl.VERSION}", f"#version {glsl.NEWEST}", 1)
+        binary, told = glslang.spirv(newer, shown(path))
+    if not binary:
+        raise messages.complaint(told)
+    return binary
+
+
 def _by_slang(
     text: str, path: Path, one: Entry, folders: list[Path], files: dict[Path, bytes]
 ) -> bytes:
     """The compiler reads files: the program is one for as long as it runs."""
     options = [x for folder in folders for x in ("-I", str(folder))]
+    import tempfile
+
     with tempfile.TemporaryDirectory() as place:
         file = Path(place) / f"{one.name}{'.slang' if path.suffix == '.slang' else '.hlsl'}"
         file.write_text(text, encoding="utf-8")

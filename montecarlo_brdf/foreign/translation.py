@@ -7,8 +7,7 @@ import contextlib
 import functools
 import hashlib
 import json
-import signal
-import subprocess
+import os
 import sys
 import types
 from pathlib import Path
@@ -73,9 +72,10 @@ def _name(path: Path) -> str:
 
 @functools.cache
 def _translator() -> bytes:
-    """The content of our own translator."""
-    files = sorted(Path(__file__).parent.glob("*.py"))
-    return hashlib.blake2b(b"".join(p.read_bytes() for p in files)).digest()
+    """Which state of our own files this is; to read them all would cost more than the rest."""
+    with os.scandir(Path(__file__).parent) as files:
+        known = sorted((f.name, f.stat().st_size, f.stat().st_mtime_ns) for f in files)
+    return repr([one for one in known if one[0].endswith(".py")]).encode()
 
 
 def _is_current(files: dict[str, str]) -> bool:
@@ -92,6 +92,8 @@ def _asked(path: Path) -> dict[str, Any]:
     if wheel.folder() is None:
         needed = f"it needs the package {wheel.PACKAGE}: pip install '{wheel.EXTRA}'"
         raise ModelError(Complaint(needed).told(str(path)))
+    import subprocess  # slow to import, and seldom needed
+
     command = [sys.executable, "-m", "montecarlo_brdf.foreign.translate"]
     request = json.dumps({"path": str(path)})
     try:
@@ -112,6 +114,8 @@ def _asked(path: Path) -> dict[str, Any]:
 def _ended(code: int, told: str) -> str:
     """In words, how a process ended that gave no answer."""
     if code < 0:
+        import signal
+
         with contextlib.suppress(ValueError):
             return f"its compiler crashed with {signal.Signals(-code).name}"
     last = told.strip().splitlines()[-1:] or [f"exit code {code}"]
