@@ -1,7 +1,6 @@
 """A sampler and its pdf in cells of equal probability, in compiled code.
 
-Coordinates follow the lobe (sampling.slopes), stretched towards the horizon, where a density may
-grow without bound: x = 1 - (1 - s)^2. A pdf is tabulated in nx x nb squares of s and b; cells
+Coordinates follow the lobe (sampling.slopes). A pdf is tabulated in nx x nb squares of them; cells
 are COLUMNS of equal probability in azimuth, each cut into ROWS of equal probability along the
 slope. What a call knows of them stands in `reals` from place `at` on: wo (3), smallest slope, the
 edges between columns, and for each strip of azimuth the edges between rows (nb, ROWS - 1), all
@@ -43,11 +42,6 @@ class Cut(NamedTuple):
     numbers: Array
 
 
-def stretched(x: float) -> float:
-    """The s of an x, which may lie beyond 1 by rounding."""
-    return 1.0 - math.sqrt(max(0.0, 1.0 - x))
-
-
 def cell_at(x: float, b: float, reals: Reals, at: int, nb: int) -> int:
     """The cell of a place in the table: so many edges lie below it."""
     column, row = 0, 0
@@ -81,7 +75,6 @@ def counts(ints: Ints, reals: Reals, out: Out) -> None:
             wx[j], wy[j], wz[j] = SAMPLE(wo, u, p)[:3]
         for j in range(m):
             x[j], b[j] = coordinates((wx[j], wy[j], wz[j]), wo, scale)
-            x[j] = stretched(x[j])
         for j in range(m):
             kept = wz[j] > 0.0 and abs(wx[j]) + abs(wy[j]) + wz[j] < math.inf
             at_x, at_b = x[j] * ints[3], b[j] * ints[4]
@@ -98,7 +91,7 @@ def cells_of(ints: Ints, reals: Reals, out: Out) -> None:
     for j in range(ints[1]):
         w = ints[0] + 3 * j
         x, b = coordinates((reals[w], reals[w + 1], reals[w + 2]), wo, scale)
-        out[j] = float(cell_at(stretched(x) * ints[2], b * ints[3], reals, at, ints[3]))
+        out[j] = float(cell_at(x * ints[2], b * ints[3], reals, at, ints[3]))
 
 
 def densities(ints: Ints, reals: Reals, out: Out) -> None:
@@ -121,9 +114,8 @@ def densities(ints: Ints, reals: Reals, out: Out) -> None:
             if ints[5] != 0:
                 x = independent_axis(key, u64(square), u64(0))
                 b = independent_axis(key, u64(square), u64(1))
-            rest, b = 1.0 - (i + x) / nx, (square - i * nb + b) / nb
-            wx[j], wy[j], wz[j], area[j] = direction(1.0 - rest * rest, b, wo, scale)
-            area[j] *= 2.0 * rest
+            x, b = (i + x) / nx, (square - i * nb + b) / nb
+            wx[j], wy[j], wz[j], area[j] = direction(x, b, wo, scale)
         for j in range(m):
             pdf = PDF(wo, (wx[j], wy[j], wz[j]), p)
             out[done + j] = pdf * area[j] / (nx * nb)

@@ -76,28 +76,23 @@ def integrate(
 
 
 class Square:
-    """The integrand on the unit square of a chart, whose x is stretched towards the end of the
-    region: f or a density may be singular there."""
+    """The integrand on the unit square of a chart."""
 
     def __init__(self, function: OfArray, chart: Chart) -> None:
         self._function, self.chart = function, chart
 
     def both(self, x: Array, y: Array) -> tuple[Array, Array]:
         """The integrand per dx dy, and the solid angle."""
-        rest = 1.0 - x
-        wi, area = self.chart.directions(np.minimum(1.0 - rest * rest, LAST), y)
-        area = 2.0 * rest * area
+        wi, area = self.chart.directions(np.minimum(x, LAST), y)
         return self._function(wi) * area, area
 
     def coordinates(self, wi: Array) -> Array:
         """(x, y) of directions, (n, 2)."""
-        x, y = self.chart.coordinates(wi)
-        return np.stack([1.0 - np.sqrt(1.0 - x), y], axis=1)
+        return np.stack(self.chart.coordinates(wi), axis=1)
 
     def edges(self, rng: np.random.Generator | None) -> tuple[Array, Array]:
         """Of the first cells."""
         x, y = self.chart.edges
-        x = 1.0 - np.sqrt(1.0 - x)
         return (_moved(x, rng), _moved(y, rng)) if rng and self.chart.movable else (x, y)
 
 

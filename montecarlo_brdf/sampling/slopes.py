@@ -3,10 +3,11 @@
 With H = wi + wo, t = tan(theta_h) and azimuth phi_h against the plane of incidence, the horizon
 mu_i = 0 is the curve t_max(phi) = T cos(phi) + sqrt(T^2 cos^2(phi) + 1), T = tan(theta_o). So
 
-    x = log(1 + (t/s)^2) / log(1 + (t_max/s)^2),   b = phi_h/(2 pi),   (x, b) in [0, 1)^2
+    1 - (1 - x)^4 = log(1 + (t/s)^2) / log(1 + (t_max/s)^2),   b = phi_h/(2 pi),   x, b in [0, 1)
 
-covers exactly the hemisphere, gives every scale from s to the horizon the same room, and turns a
-lobe of any width into a smooth function. dwi = 4 (h.v) cos^3(theta_h) t dt dphi (Walter et al.
+covers exactly the hemisphere, gives every scale from s to the horizon room, and turns a lobe of any
+width into a smooth function. The power does so with what grows without bound towards the horizon
+and can be integrated. dwi = 4 (h.v) cos^3(theta_h) t dt dphi (Walter et al.
 2007). Without a call or a branch, so that loops become vector instructions.
 """
 from __future__ import annotations
@@ -41,18 +42,20 @@ def direction(x: float, b: float, wo: Vec, scale: float) -> tuple[float, float, 
     c, s = turn(b)  # begins at -pi
     c, s = -c, -s
     last, s2 = horizon(sine, wo[2], c), scale * scale
+    rest = (1.0 - x) * (1.0 - x)
+    to_end, slope = rest * rest, 4.0 * rest * (1.0 - x)
     span = log1p(last * last / s2)
-    grown = s2 * exp(x * span)
-    t2 = s2 * expm1(x * span)
+    grown = s2 * exp((1.0 - to_end) * span)
+    t2 = s2 * expm1((1.0 - to_end) * span)
     t = math.sqrt(t2)
-    to_horizon = grown * expm1((1.0 - x) * span) / (last + t)
+    to_horizon = grown * expm1(to_end * span) / (last + t)
     z = 1.0 / math.sqrt(1.0 + t2)
     dot = z * (wo[2] + sine * c * t)
     along, across = 2.0 * dot * z * t * c - sine, 2.0 * dot * z * t * s
     up = wo[2] * to_horizon * (t + 1.0 / last) * (z * z)
     length = 1.0 / math.sqrt(along * along + across * across + up * up)
     along, across = along * length, across * length
-    area = 2.0 * TWO_PI * dot * z * z * z * grown * span
+    area = 2.0 * TWO_PI * dot * z * z * z * grown * span * slope
     return ex * along - ey * across, ey * along + ex * across, up * length, area
 
 
@@ -70,4 +73,5 @@ def coordinates(wi: Vec, wo: Vec, scale: float) -> tuple[float, float]:
     turned = 1.0 - turned if across < 0.0 else turned
     last = horizon(sine, wo[2], -c if along < 0.0 else c) / scale
     steep = slope / (hz * scale)
-    return log1p(steep * steep) / log1p(last * last), turned
+    to_end = 1.0 - log1p(steep * steep) / log1p(last * last)
+    return 1.0 - math.sqrt(math.sqrt(max(0.0, to_end))), turned
