@@ -31,6 +31,7 @@ from montecarlo_brdf.judge.claim import (
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
 from montecarlo_brdf.scene import radiance, standard, truth
+from montecarlo_brdf.scene.expected import Expected, named_values
 from montecarlo_brdf.scene.plan import Angles, Method, ScenePlan
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.skies import Constant
@@ -54,6 +55,8 @@ def claims(scene: Scene, plan: ScenePlan, tolerance: float | None = None) -> Ite
         measure = _radiance(scene, plan, from_degrees(*evaluated))
         for k in range(scene.channels):
             where = place(scene, view, k)
+            if scene.expected:
+                yield _as_expected(scene, scene.expected, view, k, measure)
             if lone := _furnace(plan, evaluated, k, tolerance):
                 yield replace(lone.agreement, quantity="L_o", where=where)
                 continue
@@ -80,6 +83,21 @@ def _agreement(
     channel = functools.partial(_channel, measure, k)
     claim = _equal("L_o", place(scene, view, k), known, tolerance, channel)
     return replace(claim, fallback=fallback, afresh=afresh)
+
+
+def _as_expected(
+    scene: Scene, expected: Expected, view: Angles, k: int, measure: Measure
+) -> MeanClaim:
+    """L_o is what the scene's author says."""
+    lone = scene.lobes[0] if len(scene.lobes) == 1 else None
+    more = named_values(lone.model, lone.sets[k], 0) if lone else {}
+    value = expected.value(k, *view, more)
+    said = expected.formulas[k if len(expected.formulas) > 1 else 0]
+    return MeanClaim(
+        "L_o as expected", place(scene, view, k), Bound.EQUAL,
+        Reference(value, 0.0, Kind.DECLARED, f"[expected] {said}"), expected.tolerance(value),
+        functools.partial(_channel, measure, k),
+    )  # fmt: skip
 
 
 def _equal(

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeGuard
 
 from montecarlo_brdf import loading
 from montecarlo_brdf.errors import UserError
@@ -17,6 +17,7 @@ from montecarlo_brdf.estimate.plan import check_theta
 from montecarlo_brdf.model import Model, ParameterSet, channels
 from montecarlo_brdf.scene.colour import Band, Colour, illuminant_table, pairs, spread
 from montecarlo_brdf.scene.environment import read_sky, short_sky
+from montecarlo_brdf.scene.expected import TOLERANCE, Expected, named_values
 from montecarlo_brdf.scene.scene import Directional, Light, Point, Scene, View
 from montecarlo_brdf.scene.skies import Sky
 from montecarlo_brdf.scene.standard import Form, Standard
@@ -97,6 +98,7 @@ def _assembled(top: SceneTable, parameters: Mapping[str, object]) -> Scene:
     lights = [_light(t) for t in top.tables("lights")]
     ambient, emission = _single(top, "ambient"), _single(top, "emission")
     view = _view(top.table("view", {}))
+    expected = _expected(top, surface, view)
     top.done()
     colours = [ambient, emission, *(light.colour for light in lights), *_colours(surface)]
     count = _channels(top, colours, sky)
@@ -114,7 +116,44 @@ def _assembled(top: SceneTable, parameters: Mapping[str, object]) -> Scene:
         emission=spread(emission, count),
         view=view,
         band=top.band,
+        expected=_of_channels(top, expected, count),
     )
+
+
+def _expected(
+    top: SceneTable, surface: Standard | list[Part], view: View
+) -> Expected | None:
+    """[expected]: what L_o must be, a number or a formula, or one for each channel."""
+    top.know("expected")
+    if "expected" not in top.data:
+        return None
+    table = top.table("expected")
+    given = table.take("radiance")
+    rows = given if isinstance(given, list) else [given]
+    formulas = tuple(map(str, rows))
+    good = rows and not any(isinstance(r, (bool, dict, list)) for r in rows)
+    if not good:
+        raise table.error("radiance must be a number, a formula in quotes, or a list", "radiance")
+    relative = table.number("tolerance", TOLERANCE, 0.0, 1.0)
+    made = Expected(formulas, relative, table.number("absolute", 0.0, 0.0))
+    more = named_values(surface[0].model, surface[0].parameters, 0) if _lone(surface) else {}
+    with table.at("radiance"):
+        for k in range(len(formulas)):
+            made.value(k, view.theta_o_deg[0], view.phi_o_deg[0], more)
+    table.done()
+    return made
+
+
+def _of_channels(top: SceneTable, expected: Expected | None, count: int) -> Expected | None:
+    if expected and len(expected.formulas) not in (1, count):
+        many = f"{len(expected.formulas)} values for {count} channels"
+        raise top.table("expected").error(f"radiance has {many}", "radiance")
+    return expected
+
+
+def _lone(surface: Standard | list[Part]) -> TypeGuard[list[Part]]:
+    """Whether formulas can name the parameters: of one model there is one each."""
+    return isinstance(surface, list) and len(surface) == 1
 
 
 def _channels(top: SceneTable, colours: Sequence[Colour], sky: Sky | None) -> int:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from montecarlo_brdf.scene.colour import Band, Colour
+from montecarlo_brdf.scene.expected import Expected
 from montecarlo_brdf.scene.skies import Constant, Sky
 from montecarlo_brdf.scene.standard import Standard
 from montecarlo_brdf.scene.surface import Lobe, Surface
@@ -89,6 +90,7 @@ class Scene:
     emission: Colour = (0.0,)
     view: View = View()
     band: Band | None = None
+    expected: Expected | None = None  # what L_o must be, where the author says so
     words: tuple[str, ...] = ()  # what says the same on a command line
 
     @property
