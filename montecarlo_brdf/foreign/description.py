@@ -81,6 +81,8 @@ class Description:
     folders: list[str] = field(default_factory=list)
     sources: list[str] = field(default_factory=list)
     stub: str = ""
+    lobe: str = ""  # "half vector: alpha"
+    albedo: str = ""  # a formula of mu and parameters
     members: dict[str, Any] = field(default_factory=dict)  # of the model
     lines: dict[str, int] = field(default_factory=dict)  # key -> line in the file
 
@@ -202,6 +204,10 @@ def _word(found: Description, key: str, value: str) -> None:
     found.members[key] = value
 
 
+def _kinks(found: Description, key: str, value: str) -> None:
+    found.members[key] = [one.strip() for one in value.split(",")]
+
+
 TERM: Mapping[str, str] = {
     "energy": "a term of a BRDF, not one itself",
     "reciprocity": "a term of a BRDF, not one itself",
@@ -214,5 +220,6 @@ KEYS: dict[str, tuple[Taker, bool]] = {
     "precision": (_precision, False), "define": (_define, True), "include": (_include, False),
     "source": (_source, False), "stub": (_stub, False), "disclaims": (_disclaims, True),
     "isotropic": (_switch, False), "lossless": (_switch, False), "term": (_term, False),
+    "lobe": (_expression, False), "albedo": (_expression, False), "kinks": (_kinks, False),
     "same_as": (_word, False), "scales_with": (_word, False),
 }  # fmt: skip

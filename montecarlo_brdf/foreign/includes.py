@@ -17,6 +17,7 @@ INCLUDE = re.compile(r'[ \t]*#[ \t]*include[ \t]*(?:"([^"\n]+)"|<([^>\n]+)>)')
 ONCE = re.compile(r"[ \t]*#[ \t]*pragma[ \t]+once\b")
 #: a line with those that continue it
 LINE = re.compile(r"(?:[^\n]*\\\n)*[^\n]*\n?")
+QUOTING = (".js", ".ts")
 #: how deep files may include one another, and how much text may come of it
 DEEPEST, LARGEST = 64, 1 << 26
 
@@ -46,7 +47,8 @@ class Includes:
             text = content.decode("utf-8-sig")
         except UnicodeDecodeError:
             text = content.decode("latin-1")
-        return text.replace("\r\n", "\n").replace("\r", "\n")
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+        return quoted(text) if path.suffix in QUOTING else text
 
     def defined(self, macros: Mapping[str, str]) -> None:
         """Macros that an engine would define before the shader."""
@@ -94,6 +96,12 @@ class Includes:
             if (folder / name).is_file():
                 return folder / name
         return None
+
+
+def quoted(text: str) -> str:
+    """What stands between back-ticks, in its lines: shaders within JavaScript."""
+    parts = text.split("`")
+    return "".join(p if k % 2 else "\n" * p.count("\n") for k, p in enumerate(parts))
 
 
 def enumerated(text: str) -> Iterator[tuple[int, str]]:

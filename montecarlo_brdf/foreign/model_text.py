@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from montecarlo_brdf.foreign import entry, runtime
+from montecarlo_brdf.foreign import entry, formula, runtime
 from montecarlo_brdf.foreign.complaint import Complaint
 from montecarlo_brdf.foreign.description import Cosine, Description, Measure
 from montecarlo_brdf.foreign.numerals import Numerals
@@ -42,6 +42,8 @@ class Version:
         known = [n for n in runtime.__all__ if re.search(rf"\b{n}\b", body)]
         imports = f"from {RUNTIME}{'_single' if self.numerals.single else ''} import "
         head = [repr(self._doc()), "from typing import NamedTuple"]
+        if "math." in body:
+            head.append("import math")
         if "array(" in body:
             head.append("from numpy import array")
         if self.numerals.single:
@@ -123,6 +125,13 @@ class Version:
         }
         if domain:
             yield f"domain = {domain!r}"
+        fields = [field_name(k) for p in self.said.parameters for k in p.fields()]
+        if self.said.lobe:
+            kind, _, width = self.said.lobe.partition(":")
+            yield f"lobe = ({kind.strip()!r}, lambda p: {_formula('lobe', width, fields)})"
+        if self.said.albedo:
+            value = _formula("albedo", self.said.albedo, fields, "mu")
+            yield f"def albedo(mu, p):\n    return {value}"
         yield from (f"{name} = {value!r}" for name, value in self.said.members.items())
 
 
@@ -132,6 +141,14 @@ def _source(binary: bytes, name: str, numerals: Numerals) -> Source:
         return Source(binary, f"{name}_shader", numerals)
     except Complaint as error:
         raise Complaint(f"key {name}: {error}") from None
+
+
+def _formula(key: str, text: str, fields: list[str], *others: str) -> str:
+    """A formula of the description; what is wrong with it is said of its key."""
+    try:
+        return formula.source(text, fields, others)
+    except Complaint as error:
+        raise Complaint(f"key {key}: {error}") from None
 
 
 def _is_coloured(source: Source) -> bool:

@@ -181,3 +181,34 @@ def test_constants_keep_their_digits() -> None:
     assert meant(0.10000000149011612, {}) == 0.1
     assert meant(1.4142135381698608, {1.4142135381698608: math.sqrt(2.0)}) == math.sqrt(2.0)
     assert meant(-0.31830987334251404, {}) == -1.0 / math.pi
+
+
+def test_a_lobe_and_an_albedo_are_formulas(tmp_path: Path) -> None:
+    path = tmp_path / "diffuse.glsl"
+    path.write_text(
+        "// brdf-check: f = share * 1.5 * wi.z * wo.z / 3.14159265358979\n"
+        "// brdf-check: param share = 0.5 in [0, 1]\n"
+        "// brdf-check: lobe = half vector: sqrt(share)^2\n// brdf-check: albedo = share * mu\n"
+    )
+    model = mb.load(str(path))
+    p = model.parameters()
+    assert model.lobe and model.lobe.width(p) == pytest.approx(0.5)
+    assert model.albedo and model.albedo(0.5, p) == 0.25
+    assert mb.furnace(model, theta_o_deg=[60.0]).verdict == Verdict.PASS
+
+
+@pytest.mark.parametrize("formula", ["().__class__", "open(share)", "'a'", "lambda: 1", "share[0]"])
+def test_a_formula_reaches_nothing(tmp_path: Path, formula: str) -> None:
+    path = tmp_path / "a.glsl"
+    said = "// brdf-check: f = share\n// brdf-check: param share = 0.5\n"
+    path.write_text(f"{said}// brdf-check: albedo = {formula}\n")
+    with pytest.raises(mb.ModelError, match="line 3, key albedo: "):
+        mb.load(str(path))
+
+
+def test_a_shader_within_javascript(tmp_path: Path) -> None:
+    chunk = "export default `\nfloat half_of(float x) {\n return 0.5 * x; }\n`;\n"
+    (tmp_path / "chunk.glsl.js").write_text(chunk)
+    path = tmp_path / "a.glsl"
+    path.write_text("// brdf-check: source = chunk.glsl.js\n// brdf-check: f = half_of(wo.z)\n")
+    assert value(path) == 0.5
