@@ -13,14 +13,14 @@ import os
 import sys
 import traceback
 import types
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from montecarlo_brdf import mixture
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.files import know_input
-from montecarlo_brdf.foreign import translation
+from montecarlo_brdf.foreign import project, translation
 from montecarlo_brdf.model import (
     KINKS,
     PROPERTIES,
@@ -74,6 +74,8 @@ def load(spec: str, **picks: str) -> Model:
             raise ModelError(f"{spec} defines no function f(wo, wi, p){choose}")
     elif spec in names():
         namespace = vars(importlib.import_module(f"montecarlo_brdf.models.{spec}"))
+    elif described := project.find(spec):
+        return _shader(described.path, picks, spec, described.said)
     else:
         raise UserError(_no_model(spec))
     model = build(spec, namespace, built_in=spec in names())
@@ -88,13 +90,15 @@ def _no_model(spec: str) -> str:
     return unknown("model", spec, names()) + ", or give the path of a .py file or of a shader"
 
 
-def _shader(path: Path, picks: Mapping[str, str]) -> Model:
+def _shader(
+    path: Path, picks: Mapping[str, str], name: str = "", said: Sequence[tuple[str, str]] = ()
+) -> Model:
     """A model in a shading language, with its single precision beside it."""
     if not os.path.isfile(path):
         raise UserError(f"no model file {path}")
     know_input(path)
-    found = translation.translated(path)
-    model = build(str(path), vars(translation.module(path, found.double)))
+    found = translation.translated(path, said)
+    model = build(name or str(path), vars(translation.module(path, found.double)))
     if found.single:
         model = dataclasses.replace(model, single=functools.partial(_single, path, found.single))
     return model.variant(**picks) if picks else model

@@ -177,6 +177,8 @@ def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
     limit = top.number("max_time", low=1e-3) if "max_time" in data else None
     policy = Policy(top.choice("inconclusive", tuple(Policy))) if "inconclusive" in data else None
     top.know("inconclusive", "max_time", *SHARED)
+    if isinstance(data.get("model"), dict):  # [model.NAME]: shaders that `load` knows by name
+        top.know("model")
     terms = _shared(top, Terms())
     entries = top.tables("models")
     top.done()

@@ -7,7 +7,7 @@ docs/shaders.md explains every key.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, NamedTuple
@@ -84,22 +84,36 @@ class Description:
     lobe: str = ""  # "half vector: alpha"
     albedo: str = ""  # a formula of mu and parameters
     members: dict[str, Any] = field(default_factory=dict)  # of the model
-    lines: dict[str, int] = field(default_factory=dict)  # key -> line in the file
+    places: dict[str, str] = field(default_factory=dict)  # key -> file and line
 
 
-def read(text: str) -> Description:
-    """The description in a shader's comments. Raises Complaint, beginning with the line."""
+class Statement(NamedTuple):
+    """`key = value` and where it stands, as "my.glsl, line 3"."""
+
+    text: str
+    place: str
+
+
+def statements(text: str, file: str) -> list[Statement]:
+    """Those in a shader's comments."""
+    return [
+        Statement(match[1], f"{file}, line {text.count(chr(10), 0, match.start()) + 1}")
+        for match in LINE.finditer(text)
+    ]
+
+
+def described(said: Iterable[Statement]) -> Description:
+    """The description that statements make. Raises Complaint, beginning with the place."""
     found = Description()
-    for match in LINE.finditer(text):
-        line = text.count("\n", 0, match.start()) + 1
+    for one in said:
         try:
-            _take(found, match[1], line)
+            _take(found, *one)
         except Complaint as error:
-            raise Complaint(f"line {line}: {error}") from None
+            raise Complaint(f"{one.place}: {error}", placed=True) from None
     return found
 
 
-def _take(found: Description, statement: str, line: int) -> None:
+def _take(found: Description, statement: str, place: str) -> None:
     key, equals, value = (part.strip() for part in statement.partition("="))
     words = key.split()
     if not equals or not words or not value:
@@ -111,7 +125,7 @@ def _take(found: Description, statement: str, line: int) -> None:
     if named != (len(words) == 2) or len(words) > 2:
         form = f"{name} NAME = value" if named else f"{name} = value"
         raise Complaint(f"write `{form}`, not {statement!r}")
-    found.lines.setdefault(key, line)
+    found.places.setdefault(key, place)
     taken(found, words[-1], value)
 
 

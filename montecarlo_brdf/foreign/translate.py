@@ -27,7 +27,7 @@ from montecarlo_brdf.foreign import (
     trial,
 )
 from montecarlo_brdf.foreign.complaint import Complaint
-from montecarlo_brdf.foreign.description import Description, read
+from montecarlo_brdf.foreign.description import Description, Statement, described, statements
 from montecarlo_brdf.foreign.includes import Includes
 from montecarlo_brdf.foreign.language import shown
 from montecarlo_brdf.foreign.model_text import Texts, Version
@@ -48,13 +48,13 @@ class Shader(NamedTuple):
     files: dict[Path, bytes]
 
 
-def opened(path: Path) -> Shader:
-    """A shader's file, read and described. Raises Complaint."""
+def opened(path: Path, more: list[Statement] | None = None) -> Shader:
+    """A shader's file, read and described; more: statements from elsewhere. Raises Complaint."""
     includes = Includes([path.parent], shown, language.macros(path))
     text = includes.text(path)
     if not text.strip():
         raise Complaint("it is empty")
-    said = read(text)
+    said = described([*statements(text, str(path)), *(more or [])])
     includes.folders += [path.parent / folder for folder in said.folders]
     includes.defined(said.defines)
     if path.suffix == EXPLORER:
@@ -106,8 +106,8 @@ def answer(shader: Shader) -> dict[str, Any]:
 def _refuse_unused(shader: Shader, text: str) -> None:
     for one in shader.said.parameters:
         if not any(f"p.{model_text.field_name(k)}" in text for k in one.fields()):
-            line = shader.said.lines.get(f"param {one.name}", 1)
-            raise Complaint(f"line {line}: the parameter {one.name} is not used")
+            place = shader.said.places.get(f"param {one.name}", str(shader.path))
+            raise Complaint(f"{place}: the parameter {one.name} is not used", placed=True)
 
 
 @contextlib.contextmanager
@@ -130,15 +130,16 @@ def within(seconds: float, sentence: str) -> Iterator[None]:
 def _told(error: Complaint, shader: Shader | None, path: str) -> str:
     """The sentence, with the line of the key that it is about."""
     key = re.match(r"key (\w+)", str(error))
-    line = shader.said.lines.get(key[1]) if shader and key else None
-    return Complaint(f"line {line}, {error}").told(path) if line else error.told(path)
+    place = shader.said.places.get(key[1]) if shader and key else None
+    return f"{place}, {error}" if place else error.told(path)
 
 
 def main() -> None:
     """Answer the request on standard input."""
-    path, shader = json.load(sys.stdin)["path"], None
+    request, shader = json.load(sys.stdin), None
+    path, said = request["path"], [Statement(*one) for one in request["said"]]
     try:
-        shader = opened(Path(path))
+        shader = opened(Path(path), said)
         told = answer(shader)
     except Complaint as error:
         told = {"error": _told(error, shader, path)}

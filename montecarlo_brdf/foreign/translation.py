@@ -10,6 +10,7 @@ import json
 import os
 import sys
 import types
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -44,26 +45,30 @@ def module(path: Path, text: str) -> types.ModuleType:
     return made
 
 
-def translated(path: Path) -> Translation:
-    """The translation of a shader. Raises ModelError with one sentence."""
-    name = _name(path)
+def translated(path: Path, said: Sequence[tuple[str, str]] = ()) -> Translation:
+    """The translation of a shader. said: statements that stand elsewhere, with their places.
+
+    Raises ModelError with one sentence.
+    """
+    name = _name(path, repr(said))
     kept = cache.read(name)
     known = json.loads(kept) if kept else None
     if known is None or not _is_current(known["files"]):
-        known = _asked(path)
+        known = _asked(path, said)
         cache.write(name, json.dumps(known).encode())
     for file in known["files"]:
         know_input(Path(file))
     return Translation(known["double"], known["single"])
 
 
-def _name(path: Path) -> str:
+def _name(path: Path, said: str) -> str:
     """What a translation is kept under."""
     try:
         content = path.read_bytes()
     except OSError as error:
         raise ModelError(f"cannot read {path}: {error.strerror or error}") from error
-    parts = (str(path.resolve()).encode(), content, wheel.release().encode(), _translator())
+    place = f"{path.resolve()} {said} {wheel.release()}"
+    parts = (place.encode(), content, _translator())
     whole = hashlib.blake2b(digest_size=16)
     for part in parts:
         whole.update(len(part).to_bytes(8, "little") + part)
@@ -87,7 +92,7 @@ def _is_current(files: dict[str, str]) -> bool:
     return found == files
 
 
-def _asked(path: Path) -> dict[str, Any]:
+def _asked(path: Path, said: Sequence[tuple[str, str]]) -> dict[str, Any]:
     """The answer of a process of its own."""
     if wheel.folder() is None:
         needed = f"it needs the package {wheel.PACKAGE}: pip install '{wheel.EXTRA}'"
@@ -95,7 +100,7 @@ def _asked(path: Path) -> dict[str, Any]:
     import subprocess  # slow to import, and seldom needed
 
     command = [sys.executable, "-m", "montecarlo_brdf.foreign.translate"]
-    request = json.dumps({"path": str(path)})
+    request = json.dumps({"path": str(path), "said": said})
     try:
         done = subprocess.run(
             command, input=request, capture_output=True, timeout=PATIENCE, encoding="utf-8"

@@ -4,7 +4,19 @@ from __future__ import annotations
 import pytest
 
 from montecarlo_brdf.foreign.complaint import Complaint
-from montecarlo_brdf.foreign.description import Cosine, Measure, Type, read
+from montecarlo_brdf.foreign.description import (
+    Cosine,
+    Description,
+    Measure,
+    Type,
+    described,
+    statements,
+)
+
+
+def read(text: str) -> Description:
+    return described(statements(text, "a.glsl"))
+
 
 TEXT = """
 // brdf-check: f = a == b ? g(wo) : vec3(0)
@@ -46,12 +58,12 @@ def test_every_key() -> None:
     ],
 )
 def test_a_mistake_has_its_line(line: str, told: str) -> None:
-    with pytest.raises(Complaint, match="line 2: ") as raised:
+    with pytest.raises(Complaint, match="^a.glsl, line 2: ") as raised:
         read(f"\n// brdf-check: {line}\n")
     assert told in str(raised.value)
 
 
 @pytest.mark.parametrize("line", ["f = a", "param x = 1"])
 def test_nothing_is_said_twice(line: str) -> None:
-    with pytest.raises(Complaint, match="line 2: .* given twice"):
+    with pytest.raises(Complaint, match="a.glsl, line 2: .* given twice"):
         read(f"// brdf-check: {line}\n// brdf-check: {line}\n")

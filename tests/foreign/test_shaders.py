@@ -212,3 +212,39 @@ def test_a_shader_within_javascript(tmp_path: Path) -> None:
     path = tmp_path / "a.glsl"
     path.write_text("// brdf-check: source = chunk.glsl.js\n// brdf-check: f = half_of(wo.z)\n")
     assert value(path) == 0.5
+
+
+PROJECT = """
+[model.matte]
+source = "shaders/matte.glsl"
+f = "matte(wo, wi)"
+before = ["scale = 1.0 / PI;", "scale *= share;"]
+isotropic = true
+define = { PI = "3.14159265358979" }
+param.share = "0.5 in [0, 1]"
+
+[[models]]
+model = "matte"
+checks = ["furnace"]
+theta_o = [0]
+"""
+
+
+def test_a_project_describes_shaders_by_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Callable[..., Any]
+) -> None:
+    (tmp_path / "shaders").mkdir()
+    shader = tmp_path / "shaders" / "matte.glsl"
+    shader.write_text("float scale;\nfloat matte(vec3 a, vec3 b) { return scale; }\n")
+    (tmp_path / "brdf-check.toml").write_text(PROJECT)
+    monkeypatch.chdir(tmp_path)
+    model = mb.load("matte")
+    assert model.name == "matte" and model.domain == {"share": (0.0, 1.0)}
+    assert value(Path("matte")) == pytest.approx(0.5 / math.pi, rel=1e-12)
+    assert cli("run").code == 0
+    (tmp_path / "brdf-check.toml").write_text(PROJECT.replace("matte(wo, wi)", "lost(wo, wi)"))
+    with pytest.raises(mb.ModelError, match="brdf-check.toml, line 4, key f: 'lost'"):
+        mb.load("matte")
+    (tmp_path / "brdf-check.toml").write_text(PROJECT.replace("isotropic", "isotropy"))
+    with pytest.raises(mb.UserError, match="brdf-check.toml, line 6: no key of .model.matte. 'iso"):
+        mb.load("matte")
