@@ -1,4 +1,5 @@
-"""Write the generated blocks of README.md, or check them with --check (exit code 1 if one is old).
+"""Write the generated blocks of README.md and docs/tutorial.md, or check them with --check (exit
+code 1 if one is old).
 
 A block stands between `<!-- run: COMMAND -->` or `<!-- commands -->` and `<!-- end -->`. Commands
 run in an empty folder with the files that README itself shows (`<!-- file: NAME -->`).
@@ -15,12 +16,13 @@ from pathlib import Path
 
 from montecarlo_brdf.foreign import translation, wheel
 
-README = Path(__file__).parent.parent / "README.md"
+ROOT = Path(__file__).parent.parent
+PAGES = (ROOT / "README.md", ROOT / "docs" / "tutorial.md")
 BLOCK = re.compile(r"(<!-- (run|commands):? ?(.*?) ?-->\n)(.*?)(<!-- end -->)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n```\w*\n(.*?)```", re.DOTALL)
 #: An estimate and the spaces after it: the last digits are those of the machine.
 ESTIMATE = re.compile(r"(\d\.\d{12})\d*\(\d+\) *")
-PLAIN = {"COLUMNS": "80", "NO_COLOR": "1", "PYTHONUTF8": "1"}
+PLAIN = {"BRDF_CHECK_QUIET": "1", "COLUMNS": "80", "NO_COLOR": "1", "PYTHONUTF8": "1"}
 
 
 def updated(text: str) -> str:
@@ -80,13 +82,16 @@ def same(old: str, new: str) -> bool:
 
 
 def main(arguments: list[str]) -> int:
-    """Write or check README.md."""
-    old = README.read_text(encoding="utf-8")
-    new = updated(old)
-    if "--check" in arguments:
-        return 0 if same(old, new) else 1
-    README.write_text(new, encoding="utf-8")
-    return 0
+    """Write or check the pages."""
+    code = 0
+    for page in PAGES:
+        old = page.read_text(encoding="utf-8")
+        new = updated(old)
+        if "--check" in arguments:
+            code |= not same(old, new)
+        else:
+            page.write_text(new, encoding="utf-8")
+    return code
 
 
 if __name__ == "__main__":

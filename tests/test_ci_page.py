@@ -1,16 +1,22 @@
 """docs/ci.md: what it shows is accepted, and what it lists is all there is."""
 from __future__ import annotations
 
+import os
 import re
+import subprocess
+import sys
+import textwrap
 from pathlib import Path
 
 import click
+import pytest
 
 from montecarlo_brdf import testing
 from montecarlo_brdf.cli import _requests, commands
 from montecarlo_brdf.report import formats
 
-PAGE = (Path(__file__).parents[1] / "docs" / "ci.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "docs" / "ci.md").read_text(encoding="utf-8")
 MINE = """\
 from typing import NamedTuple
 class Params(NamedTuple):
@@ -57,3 +63,40 @@ def test_the_workflow_runs_a_command_that_exists() -> None:
     assert found
     options = {word for p in found.params for word in p.opts}
     assert set(re.findall(r"--[\w-]+", command[2])) <= options
+
+
+def steps_of_the_action() -> str:
+    """What the action runs."""
+    text = (ROOT / "action.yml").read_text(encoding="utf-8")
+    found = re.search(r"      run: \|\n((?:        .*\n)+)", text)
+    assert found
+    return textwrap.dedent(found[1])
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs bash")
+def test_the_steps_of_the_action_run(tmp_path: Path) -> None:
+    command = tmp_path / "brdf-check"
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m montecarlo_brdf "$@"\n')
+    command.chmod(0o755)
+    project = 'checks = ["isotropy"]\n[[models]]\nmodel = "lambert"\n'
+    (tmp_path / "my checks.toml").write_text(project, encoding="utf-8")
+    there = {"CONFIG": "my checks.toml", "ARGUMENTS": "--max-time 100 --seed 3",
+             "REPORTS": str(tmp_path / "all reports")}  # fmt: skip
+    path = f"{tmp_path}{os.pathsep}{os.environ['PATH']}"
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", steps_of_the_action()], cwd=tmp_path, timeout=120,
+        env={**os.environ, **there, "PATH": path}, capture_output=True, encoding="utf-8",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    written = {p.name for p in (tmp_path / "all reports").iterdir()}
+    assert written == {"report.html", "report.json", "report.sarif", "junit.xml"}
+
+
+def test_the_hook_names_options_that_exist() -> None:
+    text = (ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8")
+    entry = re.search(r"entry: brdf-check (\w+) (.*)", text)
+    assert entry
+    found = commands.get_command(click.Context(commands), entry[1])
+    assert found
+    options = {word for p in found.params for word in p.opts}
+    assert set(re.findall(r"--[\w-]+", entry[2])) <= options

@@ -37,6 +37,15 @@ def test_generated_blocks_are_fresh(script: ModuleType) -> None:
     assert script.same(script.updated(README), README)
 
 
+def test_the_tutorial_says_what_it_says(script: ModuleType) -> None:
+    """If this fails: python scripts/update_readme.py"""
+    page = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+    assert page.count("<!-- run: ") == page.count("```console\n") == 6
+    assert script.same(script.updated(page), page)
+    for words in ("A / albedo = pi: the factor 1/pi is missing", "KNOWN", "wrote plastic.py"):
+        assert words in page
+
+
 def test_an_old_block_is_seen(script: ModuleType) -> None:
     old = "<!-- run: brdf-check --version -->\nsomething else\n<!-- end -->\n"
     new = script.updated(old)

@@ -19,9 +19,12 @@ if TYPE_CHECKING:
     from jinja2 import Template
 
 TEMPLATES = Path(__file__).parent / "templates"
-CURVES = ("converge", "furnace", "radiance")  # commands with pictures of their own for each part
+#: commands with pictures of their own for each part
+CURVES = ("converge", "furnace", "radiance", "stress")
 MOST_ROWS = 200  # of a table: the worst of more
 MOST_DOTS = 150  # of a check in a picture
+MOST_DIALS = 12
+RADIUS = 50.0  # of the horizon in a dial
 MOST_LINES = 2000  # of a source
 MOST_DRAWN_FINDINGS = 400  # of a picture
 MOST_DRAWN = 40  # pictures of a page
@@ -86,6 +89,7 @@ class Part(NamedTuple):
     table: Table
     details: list[tuple[str, Table]]
     margins: Margins | None
+    dials: list[Dial]
     picture: str
     caption: str
     source: Source | None
@@ -115,6 +119,15 @@ class Dot(NamedTuple):
     y: float
     verdict: str
     label: str
+
+
+class Dial(NamedTuple):
+    """Where the worst finding of a check lies: the directions as seen from above the surface, the
+    normal in the middle, the horizon at the rim."""
+
+    check: str
+    words: str
+    marks: list[tuple[str, float, float]]  # wo or wi, x, y
 
 
 class Margins(NamedTuple):
@@ -149,7 +162,8 @@ def _part(report: Report, section: text.Section, anchor: str, drawn: Iterator[in
         anchor, section.title, verdict, told[text.Kind.HINT],
         told[text.Kind.NOTE] + told[text.Kind.OTHER], told[text.Kind.REPRODUCE],
         _table(section.title, section),
-        _details(report, results), _margins(results), svg, caption, _source(report, results),
+        _details(report, results), _margins(results), _dials(results), svg, caption,
+        _source(report, results),
     )  # fmt: skip
 
 
@@ -187,12 +201,21 @@ def _picture(
     for command, some, caption in _drawable(report, results):
         if next(drawn, None) is None:
             return "", ""
-        one = Report(command, report.settings, list(map(_thinned, some)), report.measured)
+        one = Report(command, report.settings, list(map(_thinned, some)), _measured(report, some))
         try:
             return inline.svg(pictures.drawn(one, "svg")), caption
         except pictures.CannotDraw:
             continue
     return "", ""
+
+
+def _measured(report: Report, some: Sequence[Result]) -> dict[str, Any]:
+    """What was measured of some results: stress keeps a list beside them."""
+    rows = report.measured.get("precisions")
+    if not isinstance(rows, list) or len(rows) != len(report.results):
+        return report.measured
+    pairs = zip(report.results, rows, strict=True)
+    return {"precisions": [row for result, row in pairs if any(result is s for s in some)]}
 
 
 def _thinned(result: Result) -> Result:
@@ -232,6 +255,29 @@ def _margins(results: Sequence[Result]) -> Margins | None:
     ticks = [(LEFT + unit * (d + DECADES), f"10^{d}" if d else "1") for d in range(-4, 5, 2)]
     named = [(18.0 + STEP * k, name) for k, name in enumerate(names)]
     return Margins(STEP * len(names) + 46, LEFT + unit * DECADES, named, ticks, dots)
+
+
+def _dials(results: Sequence[Result]) -> list[Dial]:
+    """Of the checks that failed at a pair of directions, or at one."""
+    found = []
+    for result in results:
+        if result.findings and result.verdict in text.BAD:
+            finding = text.most_telling(result)
+            marks = [m for w in "oi" if (m := _mark(finding, w))]
+            if marks:
+                found.append(Dial(result.check, text.place(finding), marks))
+    return found[:MOST_DIALS]
+
+
+def _mark(finding: Finding, which: str) -> tuple[str, float, float] | None:
+    theta = finding.where.get(f"theta_{which}_deg")
+    phi = finding.where.get(f"phi_{which}_deg", 0.0)
+    known = (isinstance(v, (int, float)) and math.isfinite(v) for v in (theta, phi))
+    if not all(known):
+        return None
+    radius, angle = RADIUS * float(theta) / 90.0, math.radians(float(phi))  # type: ignore[arg-type]
+    x, y = radius * math.cos(angle), radius * math.sin(angle)
+    return f"w{which}", round(60.0 + x, 1), round(60.0 - y, 1)
 
 
 def _dots(findings: Sequence[Finding], y: float) -> list[Dot]:

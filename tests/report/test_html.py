@@ -118,7 +118,7 @@ def test_the_page_of_a_failing_model(
     words = text_of(page)
     assert words.index("FAIL") < words.index("the factor 1/pi is missing") < words.index("Source")
     assert "def f(wo, wi, p): ← furnace, energy" in words and "<b>&amp;</b>" in words
-    assert "brdf-check run --model 'my <b>.py' --check furnace" in words and page.count("<svg") == 2
+    assert "brdf-check run --model 'my <b>.py' --check furnace" in words and page.count("<svg") == 4
     # a pure function of the report, whoever has it and with whatever versions
     monkeypatch.setattr("montecarlo_brdf.judge.finding.versions", lambda: {"numba": "other"})
     again = read_report(Path("r.json"))
