@@ -23,6 +23,7 @@ def command(spec: str, form: str) -> int:
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli import _catalogue
     from montecarlo_brdf.cli._terminal import colour, tell
+    from montecarlo_brdf.foreign import translation
     from montecarlo_brdf.report.columns import Style, painted
 
     model = loading.load(spec)
@@ -30,5 +31,7 @@ def command(spec: str, form: str) -> int:
         tell(json.dumps(_catalogue.data(model), indent=1))
     else:
         name = painted(model.name, Style.BOLD, colour())
-        tell("\n".join([name, *_catalogue.page(model)]))
+        text = model.namespace.get(translation.TEXT)  # what a shader became
+        became = ["", "in Python:", "", text] if text else []
+        tell("\n".join([name, *_catalogue.page(model), *became]))
     return 0

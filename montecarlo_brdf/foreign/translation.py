@@ -22,6 +22,8 @@ from montecarlo_brdf.foreign.complaint import Complaint
 
 #: how files of shaders end
 SUFFIXES = (".glsl", ".frag", ".comp", ".vert", ".fs", ".hlsl", ".hlsli", ".slang", ".brdf")
+#: the name under which a module has its own text
+TEXT = "__translation__"
 PATIENCE = 180.0  # seconds for everything
 
 
@@ -41,6 +43,7 @@ def module(path: Path, text: str) -> types.ModuleType:
     """The module that a translation's text makes."""
     made = types.ModuleType(path.stem)
     made.__file__ = f"{path} (translated)"
+    vars(made)[TEXT] = text
     exec(compile(text, made.__file__, "exec"), vars(made))  # noqa: S102
     return made
 

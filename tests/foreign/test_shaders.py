@@ -86,6 +86,7 @@ def test_a_projected_pdf_is_said(tmp_path: Path) -> None:
 def test_show_tells_what_is_bound(cli: Callable[..., Any]) -> None:
     out = cli("show", GGX).out
     assert "f = ggx(wo, wi, alpha)" in out and "alpha=0.3 in [0.01, 1]" in out
+    assert "def f(wo, wi, p):" in out
 
 
 def test_a_function_is_found_by_its_arguments(tmp_path: Path) -> None:
