@@ -207,7 +207,7 @@ def parameter_type(
     fields: Iterable[str], defaults: Mapping[str, float], picks: Mapping[str, str]
 ) -> type[ParameterSet]:
     """A NamedTuple of floats that knows to which variant of its model it belongs."""
-    made = cast(Any, namedtuple("Params", fields, defaults=map(float, defaults.values())))  # type: ignore
+    made = cast(Any, namedtuple("Params", fields, defaults=map(_floats, defaults.values())))  # type: ignore
     made.picks = dict(picks)
     return cast(type[ParameterSet], made)
 

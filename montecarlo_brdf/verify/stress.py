@@ -11,7 +11,7 @@ from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Plan, Progress
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.judge.finding import Report, Result
-from montecarlo_brdf.model import Model
+from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.stability import designed
 from montecarlo_brdf.stability.claims import claims
 from montecarlo_brdf.stability.stress import Loss, loss
@@ -45,7 +45,8 @@ def stress(
     started = time.perf_counter()
     found = []
     for i, model in enumerate(models):
-        sets = list(p) if p else designed.parameters(model, quick)
+        asked_of = list(p) if p else designed.parameters(model, quick)
+        sets = [channel for one in asked_of for channel in channels(one)]
         many = []
         for k, one in enumerate(asked):
             part = part_of(progress, i * len(asked) + k, len(models) * len(asked))

@@ -7,6 +7,8 @@ import pytest
 import stored
 
 import montecarlo_brdf as mb
+from montecarlo_brdf.cli import _catalogue
+from montecarlo_brdf.mixture import mixture
 from montecarlo_brdf.model import channels
 
 WO = (0.6, 0.0, 0.8)
@@ -157,3 +159,12 @@ def test_colours_are_channels() -> None:
     assert values == pytest.approx([c * 0.95**2 / math.pi for c in (0.9, 0.5, 0.1)], rel=1e-12)
     assert model.domain["base_r"] == (0.0, 1.0) and model.pdf
     assert model.pdf(WO, WI, channels(p)[0]) == pytest.approx(WI[2] / math.pi, rel=1e-12)
+
+
+def test_a_colour_takes_part_in_everything() -> None:
+    model = stored.model("colour.glsl")
+    report = mb.stress(model, [model.parameters()], precisions=["float32"], quick=True)
+    assert report.verdict == "pass"
+    mixed = mixture([(0.5, mb.load("lambert")), (0.5, model)], "both")
+    assert len(channels(mixed.parameters())) == 3
+    assert "channel=0/1/2" in _catalogue.ranges(model)
