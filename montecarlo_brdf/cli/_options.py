@@ -34,6 +34,13 @@ Command = Callable[..., int]
 Option = Callable[[Command], Command]
 
 
+def shipped(name: str) -> Path:
+    """A folder of examples or pages: within the package, or beside it in a clone."""
+    package = Path(__file__).parent.parent
+    inside = package / name
+    return inside if inside.is_dir() else package.parent / name
+
+
 def number(text: str, what: str) -> float:
     """A finite number, or a UserError."""
     try:

@@ -26,7 +26,7 @@ def command(folder: Path | None) -> int:
     from montecarlo_brdf.cli._terminal import tell
     from montecarlo_brdf.files import write_bytes
 
-    found = sorted(place().glob("*.*"))
+    found = sorted(_options.shipped("examples").glob("*.*"))
     if folder is None:
         tell("\n".join(f"{path.name:24} {_said(path)}" for path in found))
         return 0
@@ -38,13 +38,6 @@ def command(folder: Path | None) -> int:
         write_bytes(folder / path.name, path.read_bytes())
     tell(f"copied {len(found)} files to {folder}")
     return 0
-
-
-def place() -> Path:
-    """Where the examples lie: within the package, or beside it in a clone."""
-    package = Path(__file__).parent.parent
-    inside = package / "examples"
-    return inside if inside.is_dir() else package.parent / "examples"
 
 
 def _said(path: Path) -> str:

@@ -52,8 +52,8 @@ def command(
 ) -> int:  # fmt: skip
     """What radiance does a surface reflect towards the viewer, and is that what theory says?
 
-    SCENE is a TOML file (docs/scenes.md). Per view and channel: L_o equals its analytic value or
-    quadrature, and the surface's albedo is at most 1.
+    SCENE is a TOML file (brdf-check docs scenes). Per view and channel: L_o equals its analytic
+    value or quadrature, what [expected] says, and the surface's albedo is at most 1.
     """
     from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.scene.read import with_views

@@ -71,7 +71,8 @@ def command(
 ) -> int:  # fmt: skip
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
-    Without --model: the models and cases of the project's brdf-check.toml (docs/ci.md)."""
+    Without --model: the models and cases of the project's brdf-check.toml
+    (brdf-check docs ci)."""
     from montecarlo_brdf.cli._requests import Terms
     from montecarlo_brdf.files import know_input
     from montecarlo_brdf.report.json import read_report

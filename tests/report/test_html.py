@@ -184,3 +184,10 @@ def test_a_browser_opens_it_without_a_word(cli: Command, tmp_path: Path) -> None
     assert "CONSOLE" not in done.stderr and "Failed to load" not in done.stderr
     assert ">Copy</button>" in done.stdout and 'hidden=""' not in done.stdout  # its script ran
     assert time.perf_counter() - began < 20.0
+
+
+@pytest.mark.slow
+def test_the_page_of_all_models_is_small(cli: Command, tmp_path: Path) -> None:
+    page = tmp_path / "all.html"
+    assert cli("run", "--model", "all", "--effort", 0.03, "--export", page).code in (0, 3)
+    assert page.stat().st_size < 6_000_000 and faults(page.read_text(encoding="utf-8")) == []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdic
 from montecarlo_brdf.report import formats
 
 jsonschema = pytest.importorskip("jsonschema")
+ROOT = Path(__file__).parents[2]
 Command = Callable[..., Outcome]
 RAISES = "def f(wo, wi, p):\n    if wi[2] < 0.4:\n        raise ValueError('low')\n    return 0.1\n"
 
@@ -139,6 +141,16 @@ def test_examples_are_there(
     assert cli(*scene).code == 0
     again = cli("examples", "--copy", "examples")
     assert again.code == 2 and "lambert.toml" in again.err
+
+
+def test_pages_are_there(cli: Command) -> None:
+    listed = [line.split()[0] for line in cli("docs").out.splitlines()]
+    assert listed == sorted(p.stem for p in (ROOT / "docs").glob("*.md"))
+    shipped = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    wheel = shipped["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]
+    assert {*wheel} == {"docs", "examples"}
+    assert cli("docs", "tutorial").out.startswith("# From 1/")
+    assert "did you mean 'scenes'" in cli("docs", "scene").err
 
 
 def test_a_project_to_begin_with(
