@@ -18,6 +18,7 @@ ROOT = Path(__file__).parents[1]
 CHECKS = ["positivity", "furnace", "energy", "reciprocity", "precision"]
 ANGLES = (0.0, 60.0)
 EFFORT = 0.1
+MOST = 6  # angles and parameters that a place is told by
 HEAD = """\
 # Shaders of others
 
@@ -76,7 +77,8 @@ def excess(found: Finding) -> float:
 
 def told(found: Finding) -> tuple[str, str]:
     """Quantity and value, and its place."""
-    where = ", ".join(f"{k.removesuffix('_deg')} {v:.4g}" for k, v in found.where.items())
+    places = [f"{k.removesuffix('_deg')} {v:.3g}" for k, v in found.where.items()]
+    where = ", ".join(places[:MOST]) + (", ..." if len(places) > MOST else "")
     return f"{found.quantity}: {found.value:.4g}", where
 
 

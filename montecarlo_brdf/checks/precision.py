@@ -175,8 +175,10 @@ def _worst(case: Case, theta: float, single: Any) -> Exact:
     wo, wi = np.array(case.wo(theta)), _lights(case, theta)
     f = pointwise(case.model, case.one).f(wo, wi)
     other = dataclasses.replace(case.model, f=single, rebuild=None)
-    off = np.abs(_rounded(other, case.one, wo, wi) - f)
-    scale = np.maximum(np.abs(f), FLOOR * np.nanmean(np.abs(f)))
+    with np.errstate(invalid="ignore"):  # both may be infinite
+        off = np.abs(_rounded(other, case.one, wo, wi) - f)
+    usual = float(np.mean(np.abs(f), where=np.isfinite(f))) if np.isfinite(f).any() else 0.0
+    scale = np.maximum(np.abs(f), FLOOR * usual)
     relative = np.where(np.isfinite(f), off / np.where(scale > 0.0, scale, 1.0), 0.0)
     relative[np.isnan(relative)] = np.inf
     worst = int(np.argmax(relative))

@@ -9,7 +9,7 @@ from montecarlo_brdf.foreign import entry as entries
 from montecarlo_brdf.foreign.description import Description, Parameter, Type
 from montecarlo_brdf.foreign.entry import Entry
 from montecarlo_brdf.foreign.messages import KEY
-from montecarlo_brdf.foreign.scopes import bare, depths, rewritten
+from montecarlo_brdf.foreign.scopes import bare, depths, is_set, rewritten
 
 #: compiled first: the functions of later versions take the compiler a tenth of a second to learn
 VERSION = 430
@@ -104,8 +104,8 @@ class Program:
     def _uniform(self, match: re.Match[str]) -> str:
         """A parameter becomes a variable; anything else stays what it is, in a block of its own."""
         kind, name, array = match["type"], match["name"], match["array"] or ""
-        if name in self._parameters and not array:
-            return f"{kind} {name};"
+        if (name in self._parameters and not array) or is_set(name, self._said.before):
+            return f"{kind} {name}{array};"
         self._bindings += 1
         if OPAQUE.fullmatch(kind):
             return f"layout(binding = {self._bindings}) uniform {kind} {name}{array};"
@@ -120,8 +120,8 @@ class Program:
     def _stage(self, match: re.Match[str]) -> str:
         """What the stage gets stays so, unless it is a parameter or set; what it gives is ours."""
         kind, name, array = match["type"], match["name"], match["array"] or ""
-        is_set = re.search(rf"\b{name}\s*=[^=]", self._said.before)
-        if match["way"] == "out" or name in self._parameters or is_set:
+        ours = name in self._parameters or is_set(name, self._said.before)
+        if match["way"] == "out" or ours:
             return f"{kind} {name}{array};"
         self._bindings += 1
         flat = "flat " if kind in ("int", "uint") or kind[0] in "iu" else ""

@@ -8,13 +8,15 @@ from montecarlo_brdf.foreign import entry as entries
 from montecarlo_brdf.foreign.description import Description, Type
 from montecarlo_brdf.foreign.entry import Entry
 from montecarlo_brdf.foreign.messages import KEY
-from montecarlo_brdf.foreign.scopes import bare, rewritten
+from montecarlo_brdf.foreign.scopes import bare, is_set, rewritten
 
 TYPE = r"(?:float|half|double|int|uint|bool)[234]?"
 UNIFORM = re.compile(
     rf"\b(?P<static>static\s+)?(?:uniform\s+|extern\s+)?(?P<type>{TYPE})\s+(?P<name>\w+)\s*"
     r"(?:=[^;]*)?;"
 )
+OTHER = re.compile(r"\b(?:ConstantBuffer\s*<\s*(?P<inner>\w+)\s*>|(?P<type>\w+))\s+(?P<name>\w+)"
+                   r"(?P<array>\s*\[[^\]]*\])?\s*(?::\s*register\s*\([^)]*\)\s*)?;")  # fmt: skip
 BLOCK = re.compile(r"\bcbuffer\s+\w+\s*(?::[^{]*)?\{(?P<members>[^}]*)\}\s*;?")
 MAKERS = """\
 float3 bc_colour(float x) { return float3(x, x, x); }
@@ -34,6 +36,7 @@ class Program:
         self._globals: set[str] = set()
         code = rewritten(bare(text), BLOCK, self._opened)
         code = rewritten(code, UNIFORM, self._uniform)
+        code = rewritten(code, OTHER, self._set)
         stub = f'#line 1 "{KEY}stub"\n{said.stub}' if said.stub else ""
         defines = [f"#define {k} {v}" for k, v in said.defines.items()]
         self._text = "\n".join([
@@ -72,6 +75,13 @@ class Program:
             return match[0]
         self._globals.add(match["name"])
         return f"static {match['type']} {match['name']};"
+
+    def _set(self, match: re.Match[str]) -> str:
+        """A uniform of any type that `before` fills is ours."""
+        kind = match["inner"] or match["type"]
+        if kind in ("return", "static", "const") or not is_set(match["name"], self._said.before):
+            return match[0]
+        return f"static {kind} {match['name']}{match['array'] or ''};"
 
     def _opened(self, match: re.Match[str]) -> str:
         """A constant buffer as variables, which they are to the shader."""

@@ -163,11 +163,11 @@ class Memory:
                 rows = [row[begin : begin + size] for row in place.rows]
                 place = Place(kind, rows, place.chosen_by)
                 continue
-            if place.chosen_by is not None:
-                raise Complaint("an array is indexed by two variables")
             kind, index = types[place.type].parts[0], self.code.value(number)[0]
-            size, names = types.size(kind), place.names
-            rows = [names[k : k + size] for k in range(0, len(names), size)]
+            size, count = types.size(kind), types[place.type].length
+            rows = [r[k : k + size] for r in place.rows for k in range(0, len(r), size)]
+            if place.chosen_by is not None:
+                index = self.code.once(f"{place.chosen_by} * {count} + {index}")
             place = Place(kind, rows, index)
         return place
 

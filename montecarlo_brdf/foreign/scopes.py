@@ -36,3 +36,8 @@ def rewritten(
         return new + "\n" * (match[0].count("\n") - new.count("\n"))
 
     return pattern.sub(changed, text)
+
+
+def is_set(name: str, statements: str) -> bool:
+    """Whether statements assign to a variable, or to a part of it."""
+    return bool(re.search(rf"\b{name}\b[\w.\[\]]*\s*=[^=]", statements))

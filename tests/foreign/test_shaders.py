@@ -249,3 +249,17 @@ def test_a_project_describes_shaders_by_name(
     (tmp_path / "brdf-check.toml").write_text(PROJECT.replace("isotropic", "isotropy"))
     with pytest.raises(mb.UserError, match="brdf-check.toml, line 6: no key of .model.matte. 'iso"):
         mb.load("matte")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "command",
+    [
+        "run --effort 0.03 --theta-o 45 --model", "furnace --theta-o 45 --model",
+        "converge --theta-o 45 --model", "stress --model", "show", "compare lambert",
+        "bench --model", "radiance --environment gradient --model",
+    ],
+)  # fmt: skip
+def test_every_command_takes_a_shader(command: str, cli: Callable[..., Any]) -> None:
+    for name in ("ggx_stable.glsl", "colour.glsl"):
+        assert cli(*command.split(), stored.SHADERS / name).code in (0, 1, 3)

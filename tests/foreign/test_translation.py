@@ -57,6 +57,7 @@ def reference_flow(a: stored.Vec, b: stored.Vec, n: int) -> float:
     k = 1.0 - 0.75 * 0.75 * (1.0 - (a[2] / length) ** 2)
     x += 0.75 * -a[0] / length if k >= 0.0 else 0.0
     x += (scrambled(n * 2654435769) >> 8) / 16777216.0
+    x += 10 * (n % 3) + n % 2
     k = 0
     while True:
         k += 3

@@ -60,6 +60,11 @@ float flow(vec3 a, vec3 b, int n)
     x += solved.x + 2.0 * solved.y - solved.z + determinant(transpose(m));
     x += refract(normalize(-a), vec3(0, 0, 1), 0.75).x;
     x += float(scrambled(uint(n) * 2654435769u) >> 8) / 16777216.0;
+    float grid[3][2];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 2; ++j)
+            grid[i][j] = float(10 * i + j);
+    x += grid[n % 3][n % 2];
     int k = 0;
     do { k += 3; if (k == 9) break; } while (k < n);
     while (true) { if (++k > 20 - n) break; }
