@@ -58,6 +58,13 @@ def test_one_test_per_model_case_and_check(scratch: Path) -> None:
     assert [suite.get(k) for k in ("failures", "errors")] == ["1", "0"]
 
 
+def test_a_model_that_does_not_load_is_one_failure_among_others(scratch: Path) -> None:
+    (scratch / "src" / "gain.py").write_text("def f(wo, wi, p) return 1\n", encoding="utf-8")
+    code, out = pytest_in(scratch, "-W", "error", "-k", "load or 0.2")
+    assert code == 1 and "Traceback" not in out, out
+    assert "line 1: expected ':'" in out and "1 failed, 2 passed" in out
+
+
 def test_mistakes_are_sentences(scratch: Path) -> None:
     (scratch / "brdf-check.toml").write_text(PROJECT.replace("furnace", "furnce"), encoding="utf-8")
     code, out = pytest_in(scratch)

@@ -358,7 +358,8 @@ def _precision(result: Result, measured: Mapping[str, Any]) -> Row:
 def _broken(result: Result) -> Iterator[Sentence]:
     for f in result.findings:
         if f.verdict in (Verdict.FAIL, Verdict.KNOWN):
-            text = f"{f.where['precision']}: {f.quantity} {f.value:.2g}: {f.note}"
+            value = f" {f.value:.2g}" if math.isfinite(f.value) or not f.note else ""
+            text = f"{f.where['precision']}: {f.quantity}{value}: {f.note}"
             yield Sentence(Kind.OTHER, text)
             if f.reproduce:
                 yield Sentence(Kind.REPRODUCE, f.reproduce)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -109,6 +110,19 @@ def test_what_a_model_prints_is_no_report(where: str, folder: Path, process: Com
     line = ("furnace", "--model", "fine.py", "--theta-o", 0, "--samples", 64, "--format", "json")
     outcome = process(*line)
     assert json.loads(outcome.out)["command"] == "furnace" and "hello" in outcome.err
+
+
+def test_what_numpy_warns_of_is_told_by_verdicts(folder: Path, process: Command) -> None:
+    (folder / "fine.py").write_text("def f(wo, wi, p):\n    return 1e300 * 1e300 * (wi[2] - 0.5)\n")
+    outcome = process("run", "--model", "fine.py", "--check", "reciprocity,isotropy")
+    assert outcome.code in (0, 1, 3) and outcome.err == ""
+
+
+def test_a_precision_that_needs_a_package(cli: Command) -> None:
+    if importlib.util.find_spec("ml_dtypes"):
+        pytest.skip("it is installed")
+    outcome = cli("stress", "--model", "lambert", "--precision", "bfloat16")
+    assert outcome.code == 2 and "bfloat16 needs the package ml_dtypes" in outcome.err
 
 
 ENDS = {

@@ -62,3 +62,16 @@ def test_a_colours_channel_has_its_name(cli: Callable[..., Outcome]) -> None:
 def test_too_few_samples_for_anything_are_told(cli: Callable[..., Outcome]) -> None:
     outcome = cli("converge", "--model", "lambert", "--samples", 1)
     assert outcome.code == 2 and "samples must be at least 4096" in outcome.err
+
+
+def test_what_is_safe_nowhere_is_no_number() -> None:
+    where = {"precision": "float16"}
+    lost = Finding("smallest safe alpha", where, Verdict.KNOWN, note="none is safe")
+    measured = {
+        "name": "float16", "eps": 1e-3, "points": 9, "worst": 1.0, "allowed": 0.1, "nan": 0,
+        "with_inputs": 1.0, "inf": 0, "negative": 0, "flushed": 0, "parameter": "alpha",
+        "safe": math.nan, "length": None,
+    }  # fmt: skip
+    rows = [Result("m", {}, "stability", [lost])]
+    out = text.render(Report("stress", {}, rows, {"precisions": [[measured]]}))
+    assert "float16: smallest safe alpha: none is safe" in out and "nan" not in out
