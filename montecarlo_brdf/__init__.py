@@ -17,6 +17,7 @@ Reading order, each resting on those before it (CONTRIBUTING.md has a picture):
     compile       templates with holes become machine code: `compile.kernel`, `compile.bind`
     sampling      points of the unit cube, and ways from them to a direction
     model         what a BRDF says of itself; models are its files, references their truth
+    foreign       a shader becomes the text of a model file: `foreign.translate`
     estimate      quantity times direction: a number with its error bar, and whether to believe it
     cases         what is looked at: a model, parameters, directions
     judge         a claim becomes a finding: `judge.claim`, `judge.decide`
