@@ -99,7 +99,8 @@ def skies() -> Iterator[str]:
     asked = every.total()
     yield "## Narrow light\n"
     yield (
-        f"`brdf-check radiance` of {len(study['models'])} built-in models at their defaults, "
+        f"`brdf-check radiance` of {len(study['models'])} cases, all built-in models with their "
+        "defaults and the first and last of their verified parameters, at "
         f"{', '.join(f'{a:g}' for a in study['angles'])} degrees, under skies from constant to a "
         "cosine to the power of 10⁷ and caps of 0.01 degrees, around the normal and tilted down to "
         f"the horizon: of {asked:,} findings {every['fail']} fail and {every['inconclusive']} "
