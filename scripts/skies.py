@@ -1,7 +1,7 @@
 """No false fail under narrow light: all built-in models under a grid of skies, at default settings.
 
 With their defaults and the first and last of their verified parameters. From a constant sky over
-of a cosine up to 10^7 to caps of 0.01 degrees, around the normal, tilted, and on the
+powers of a cosine up to 10^7 to caps of 0.01 degrees, around the normal, tilted, and on the
 horizon. Energy is asked under the constant sky alone, as it does not depend on the sky. Everything
 is a fail, not resolved (with both numbers), or a pass; models that disclaim energy have known
 failures.

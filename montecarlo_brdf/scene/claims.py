@@ -32,7 +32,7 @@ from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
 from montecarlo_brdf.scene import radiance, standard, truth
 from montecarlo_brdf.scene.expected import Expected, named_values
-from montecarlo_brdf.scene.plan import Angles, Method, ScenePlan
+from montecarlo_brdf.scene.plan import Angles, ScenePlan
 from montecarlo_brdf.scene.scene import Scene
 from montecarlo_brdf.scene.skies import Constant
 from montecarlo_brdf.scene.standard import Standard
@@ -57,7 +57,7 @@ def claims(scene: Scene, plan: ScenePlan, tolerance: float | None = None) -> Ite
             where = place(scene, view, k)
             if scene.expected:
                 yield _as_expected(scene, scene.expected, view, k, measure)
-            if lone := _furnace(plan, evaluated, k, tolerance):
+            if lone := _furnace(plan, view, k, tolerance):
                 yield replace(lone.agreement, quantity="L_o", where=where)
                 continue
             yield _agreement(scene, plan, view, k, tolerance, measure)
@@ -148,7 +148,7 @@ def energy_claims(
     for view, measure in _albedos(plan):
         for k in range(scene.channels):
             where = place(scene, view, k, angle)
-            if not reverse and (lone := _furnace(plan, plan.views[view], k, tolerance)):
+            if not reverse and (lone := _furnace(plan, view, k, tolerance)):
                 yield replace(lone.energy, where=where, unit=_units(scene, k))
                 continue
             yield MeanClaim(
@@ -174,20 +174,20 @@ def _furnace(
     plan: ScenePlan, view: Angles, channel: int, tolerance: float | None
 ) -> Furnace | None:
     """The same question has one answer: the furnace's claims times the light, where a scene is one;
-    None where it is more, or where its integrand is constant and needs no samples."""
+    None where it is more."""
     scene = plan.scene
     lone = len(plan.works) == len(scene.lobes) == 1 and plan.skip and not plan.lights
     if not lone or any(scene.emission) or any(scene.ambient) or scene.sky is None:
         return None
     (lobe,), factor = scene.lobes, scene.lobes[0].weights[channel] * scene.sky.scales[channel]
-    sampled = plan.works[0].method is not Method.ONE_VALUE and factor > 0.0
-    if not sampled or not isinstance(scene.sky.shapes[channel], Constant):
+    if factor <= 0.0 or not isinstance(scene.sky.shapes[channel], Constant):
         return None
-    at = ("furnace", view, channel, tolerance)
+    theta, phi = view[0], plan.views[view][1]  # azimuths that are alike share an evaluation
+    at = ("furnace", theta, phi, channel, tolerance)
     if at not in plan.known:
         model, p = lobe.model, lobe.sets[channel]
-        case = Case(model, p, [view[0]], view[1], tolerance=tolerance)
-        plan.known[at] = Furnace(*(_times(factor, c) for c in furnace.at_angle(case, view[0])))
+        case = Case(model, p, [theta], phi, tolerance=tolerance)
+        plan.known[at] = Furnace(*(_times(factor, c) for c in furnace.at_angle(case, theta)))
     found: Furnace = plan.known[at]
     return found
 
