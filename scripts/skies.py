@@ -77,7 +77,7 @@ def main() -> None:
             for one in found["open"]:
                 print(f"{name} {sky} {one}", flush=True)
             study = {**describe(), "angles": ANGLES, "models": known}
-            options.target.write_text(json.dumps(study, indent=1) + "\n")
+            options.target.write_text(json.dumps(study) + "\n")
         print(f"{name:50} {dict(total(known[name]))}", flush=True)
     print(dict(sum(map(total, known.values()), collections.Counter())))
 
