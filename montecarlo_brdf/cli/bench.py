@@ -53,7 +53,7 @@ def command(
     channel counts. There is no verdict.
     """
     from montecarlo_brdf import files, loading
-    from montecarlo_brdf.cli._terminal import progress, tell
+    from montecarlo_brdf.cli._terminal import progress, tell, width
     from montecarlo_brdf.report import bench as report
     from montecarlo_brdf.report.pictures import encoded, kind_of
     from montecarlo_brdf.verify import failure
@@ -74,7 +74,7 @@ def command(
         data = bench(model, sets[0], theta_o, phi_o_deg=phi_o, method=method.split(","),
                      seconds=most, seeds=seeds, progress=update)  # fmt: skip
     text = json.dumps(data, indent=1, allow_nan=False) + "\n"
-    tell(text if as_json else report.table(data))
+    tell(text if as_json else report.table(data, width()))
     if export:
         files.write_text(export, text)
     if plot:

@@ -7,12 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.report.columns import Column, Row
+from montecarlo_brdf.report.columns import table as columns_of
 from montecarlo_brdf.report.pictures.style import COLOURS
 from montecarlo_brdf.report.text import called
 
 #: A line and a marker for each point set, and for "auto"; colours stand for samplers.
 STYLES = {"independent": ":o", "stratified": "-.s", "sobol": "--^", "lattice": "-D", "": "-*"}
-ROW = "{mark} {method:<27} {samples:>9} {error:>9.1e} {seconds:>9.2g} {each:>10.3g}"
+#: after the method
+NUMBERS = (
+    Column("samples", fold=2, right=True), Column("error", fold=3, right=True),
+    Column("seconds", right=True), Column("ns/sample", fold=1, right=True),
+)  # fmt: skip
 
 
 NEEDED = ("model", "params", "where", "methods", "timings", "reference", "targets", "seeds")
@@ -31,7 +37,7 @@ def read(path: Path) -> dict[str, Any] | None:
     return data
 
 
-def table(data: dict[str, Any]) -> str:
+def table(data: dict[str, Any], width: int = 80) -> str:
     """For each target what every method needs, fastest first; then the methods that miss it."""
     known = data["reference"]
     lines = [
@@ -40,12 +46,20 @@ def table(data: dict[str, Any]) -> str:
         f"Relative errors: root mean square of {data['seeds']} seeds. Times: of the processor.",
     ]
     for target, rows in data["targets"].items():
-        lines += ["", f"  to {target:<25}   samples     error   seconds  ns/sample"]
-        for mark, row in zip("*" + " " * len(rows), rows, strict=False):
-            lines += [ROW.format(mark=mark, each=1e9 * row["seconds"] / row["samples"], **row)]
+        columns = (Column(f"to {target}"), *NUMBERS)
+        cells = [_row(row, k == 0) for k, row in enumerate(rows)]
+        lines += ["", *columns_of(columns, cells, width)] if rows else ["", f"to {target}"]
         missed = [m for m in data["methods"] if m not in {row["method"] for row in rows}]
         lines += [f"  {method:<27} not within {data['seconds']:g} s" for method in missed]
     return "\n".join([*lines, "", "* fastest"]) + "\n"
+
+
+def _row(row: dict[str, Any], fastest: bool) -> Row:
+    each = 1e9 * row["seconds"] / row["samples"]
+    return (
+        f"{'* ' if fastest else '  '}{row['method']}", str(row["samples"]), f"{row['error']:.1e}",
+        f"{row['seconds']:.2g}", f"{each:.3g}",
+    )  # fmt: skip
 
 
 def title(data: dict[str, Any]) -> str:

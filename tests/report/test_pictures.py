@@ -18,6 +18,7 @@ from matplotlib.text import Text
 from PIL import Image
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+from montecarlo_brdf.report import bench
 from montecarlo_brdf.report.pictures import albedo, convergence, margins, radiance, spheres
 from montecarlo_brdf.report.pictures import stability as heat
 
@@ -208,6 +209,12 @@ def test_a_benchmark_is_drawn_again(cli: Command, tmp_path: Path) -> None:
     assert cli(*line, "--export", data, "--plot", one).code == 0
     assert cli("plot", data, "-o", two).code == 0 and one.read_bytes() == two.read_bytes()
     damaged = json.loads(data.read_text())
+    for width in (40, 60, 80, 118):  # tables keep to a terminal, and no number is torn
+        lines = bench.table(damaged, width).splitlines()
+        rows = [row for found in damaged["targets"].values() for row in found]
+        words = {word for line in lines for word in line.split()}
+        assert {f"{row['error']:.1e}" for row in rows} <= words
+        assert max(len(line) for line in lines[4:] if "not within" not in line) <= width
     del damaged["timings"]
     data.write_text(json.dumps(damaged))
     outcome = cli("plot", data, "-o", two)
