@@ -104,7 +104,9 @@ PRINTS = {
 }
 
 
-@pytest.mark.parametrize("where", PRINTS)
+@pytest.mark.parametrize(
+    "where", [pytest.param(w, marks=[pytest.mark.slow] if w == "in f" else []) for w in PRINTS]
+)
 def test_what_a_model_prints_is_no_report(where: str, folder: Path, process: Command) -> None:
     (folder / "fine.py").write_text(PRINTS[where])
     line = ("furnace", "--model", "fine.py", "--theta-o", 0, "--samples", 64, "--format", "json")

@@ -86,7 +86,10 @@ def test_everything_is_escaped() -> None:
         assert faults(page) == [] and page.count("<script>") == 1 and EVIL in text_of(page)
 
 
-@pytest.mark.parametrize("command", ["run", "furnace", "compare"])
+DRAWN = pytest.param("furnace", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("command", ["run", DRAWN, "compare"])
 def test_ten_thousand_findings(command: str) -> None:
     findings = [*many(9_999), *many(1, Verdict.FAIL)]
     report = Report(command, {"seed": 0}, [Result("my.py", {"a": 0.5}, "furnace", findings)])

@@ -153,7 +153,7 @@ def curve(sampler: str, points: str, error: float, slope: float) -> Finding:
                    estimators=levels)  # fmt: skip
 
 
-@pytest.mark.parametrize("count", [1, 3, pytest.param(6, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [1, *(pytest.param(n, marks=pytest.mark.slow) for n in (3, 6))])
 def test_convergence(count: int) -> None:
     samplers = ("uniform", "cosine", "own", "half_vector", "mirror", "panels")[:count]
     sets = ("independent", "stratified", "sobol", "lattice")
