@@ -68,6 +68,7 @@ def at_angle(case: Case, theta: float) -> Iterator[MeanClaim]:
             case.tolerated(AGREEMENT_TOLERANCE) * scale,
             source,
             unit=_albedo.units(case.model, one),
+            diagnosis=functools.partial(_named, case, theta),
             fallback=quadrature if case.samplers is None else None,
             afresh=functools.partial(_truth.albedo, case.model, one, theta, case.phi_o_deg),
         )
@@ -82,6 +83,16 @@ def at_angle(case: Case, theta: float) -> Iterator[MeanClaim]:
             unit=_albedo.units(case.model, one),
             fallback=quadrature,
         )
+
+
+def _named(case: Case, theta: float) -> str | None:
+    """What is wrong with a pdf by which f cos/pdf is wrong too: its own check may be unable to
+    integrate it, as 1/cos."""
+    if not (case.model.sample and case.model.pdf):
+        return None
+    from montecarlo_brdf.checks import _draws  # imports numpy
+
+    return None if _draws.chooses(case, theta) else _draws.ratio_cause(case, theta)
 
 
 def _weights(case: Case, one: Parameters, where: dict[str, Any]) -> Claim:

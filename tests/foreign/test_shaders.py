@@ -57,10 +57,11 @@ def changed(tmp_path: Path, name: str, old: str, new: str) -> Path:
     return path
 
 
+PDF = "visible_pdf(wo, wi, alpha)"
 WRONG = [
     ("(4.0 * masked)", "masked", "energy", "factor 4 too much"),
-    ("visible_pdf(wo, wi, alpha)", "visible_pdf(wi, wo, alpha)", "pdf", "wo and wi swapped"),
-    ("visible_pdf(wo, wi, alpha)", "visible_pdf(wo, wi, alpha) / wi.z", "furnace", ""),
+    (PDF, "visible_pdf(wi, wo, alpha)", "pdf", "wo and wi swapped"),
+    (PDF, f"{PDF} / wi.z", "furnace", "cos_i is missing"),
 ]
 
 
