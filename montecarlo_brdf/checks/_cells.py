@@ -61,8 +61,12 @@ class Cells:
         cell."""
         each = self.tables[2] / CELLS
         grids = float(np.sqrt(np.sum((self.jittered - each) ** 2 / each)))
-        lacking = abs(self.integral.value - self.tables[2]) - self.integral.error
-        return grids + max(0.0, lacking) / math.sqrt(each)
+        return grids + self.lacking / math.sqrt(each)
+
+    @property
+    def lacking(self) -> float:
+        """What the cells surely have less, or more, than the density's integral."""
+        return max(0.0, abs(self.integral.value - self.tables[2]) - self.integral.error)
 
     @functools.cached_property
     def cut(self) -> cells.Cut:

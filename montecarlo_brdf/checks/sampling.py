@@ -105,6 +105,9 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     mass = cells.tables[2]
     if not 0.0 < mass < HEAVIEST:
         return Fit(math.nan, math.inf, 1.0, 0, f"the pdf has mass {mass:.4g}: see `pdf`")
+    if cells.lacking > GROSS * TOLERANCE:
+        hidden = "a lobe of pdf lies where half vectors do not show it"
+        return Fit(math.nan, math.inf, 1.0, 0, hidden)
     n = min(math.ceil(DRAWS * plan.samples), case.budget(MOST))
     place = (theta, case.phi_o_deg, *case.one)
     key = stream(plan.seed, case.model.identity, NAME, *place, n)
