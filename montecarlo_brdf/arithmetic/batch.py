@@ -185,6 +185,8 @@ def over_points(columns: Sequence[Any], call: Callable[..., Any], arithmetic: Ar
         done += 1
         if done > MOST_PARTS:
             raise Widened(f"the function takes more than {MOST_PARTS} different paths")
+        if arithmetic.watch:
+            arithmetic.watch(part)
         try:
             with np.errstate(all="ignore"):
                 batches = [Batch(c[part] if np.ndim(c) else c, arithmetic) for c in columns]

@@ -35,6 +35,8 @@ class Arithmetic:
     tolerance: float  # relative error that is allowed by default
     functions: Mapping[str, Callable[..., Any]]
     convert: Callable[[Any], Any] | None = None
+    #: is told which points the next run of a function is for
+    watch: Callable[[Array], None] | None = None
 
     def __repr__(self) -> str:
         return self.name

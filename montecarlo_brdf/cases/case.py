@@ -32,6 +32,7 @@ class Case(NamedTuple):
     against: Model | None = None  # a model that it must equal
     seed: int = 0
     effort: float = 1.0  # in (0, 1], see `budget`
+    viewer: Vec | None = None  # the viewer's direction exactly, instead of from its angles
 
     def budget(self, most: int, least: int = 1) -> int:
         """How many of `most` pairs, places, nodes, draws or parameter sets are looked at: all at
@@ -50,7 +51,7 @@ class Case(NamedTuple):
 
     def wo(self, theta_deg: float) -> Vec:
         """The viewer's direction at a polar angle."""
-        return from_degrees(theta_deg, self.phi_o_deg)
+        return self.viewer or from_degrees(theta_deg, self.phi_o_deg)
 
     def random(self, *names: object) -> np.random.Generator:
         """A NumPy generator for a purpose, from the seed and what it is for."""

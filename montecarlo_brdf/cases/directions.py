@@ -1,16 +1,13 @@
-"""Pairs of directions where BRDFs go wrong: edges first, then everywhere, then along the lobe."""
+"""Pairs of directions where BRDFs go wrong, and what rounding explains there."""
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-
-from montecarlo_brdf.cases import parameters
-from montecarlo_brdf.cases.case import Case, Parameters, pointwise
-from montecarlo_brdf.estimate.places import Rows
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -20,9 +17,9 @@ if TYPE_CHECKING:
     Pairs = tuple[Array, Array]  # wo and wi, (n, 3) each
 
     #: f or pdf of (n, 3) wo and wi
-    Function = Callable[[Array, Array], Array]
-    #: how far from right each of n pairs with parameters of its own is
-    Deviation = Callable[[Array, Array, Rows], Array]
+    At = Callable[[Array, Array], Array]
+    #: the same with the parameters of the rows of an index
+    OfRows = Callable[[Array, Array, Array], Array]
 
 LAST = math.nextafter(0.5 * math.pi, 0.0)  # 90 degrees less an ulp: cos = 2.8e-16
 #: polar angles in radians: normal, next to it, ordinary, grazing, the last double before 90 degrees
@@ -35,11 +32,6 @@ EDGES = (
     LAST,
 )
 AZIMUTHS = (0.0, 1e-7, 0.5, 0.5 * math.pi, 2.5, math.pi - 1e-7, math.pi, 4.0)
-RANDOM = 20_000
-LOBE = 20_000
-SPECIAL = 2_000
-SCATTERED = 100_000  # pairs with parameters of their own
-PREPARED = 32  # different ones where the model prepares them
 MIRROR = np.array([-1.0, -1.0, 1.0])
 NEIGHBOURS = 64
 TURNS = 16  # azimuths of wi, the mirror direction's among them
@@ -86,81 +78,26 @@ def random_pairs(rng: np.random.Generator, n: int) -> Pairs:
     return some(), some()
 
 
-def special_pairs(rng: np.random.Generator, n: int) -> Pairs:
-    """wi = wo and wi = mirror of wo at random directions, exactly and an ulp or two beside."""
-    wo, _ = random_pairs(rng, n)
-    partners = [wo, wo * MIRROR]
-    partners += [w + 2.0**-53 * rng.integers(-2, 3, size=w.shape) for w in partners]
-    return np.concatenate([wo] * len(partners)), np.concatenate(partners)
-
-
-def lobe_pairs(case: Case, p: Parameters, rng: np.random.Generator, n: int) -> Pairs:
-    """Random wo with wi drawn by the model's own sampler: pairs that see a lobe of any width."""
-    if case.model.sample is None:
-        wo, _ = random_pairs(rng, n)
-        centre = np.where(rng.random((n, 1)) < 0.5, wo, wo * MIRROR)  # lobes sit at either
-        wi = centre + 0.1 * rng.normal(size=(n, 3)) * rng.random((n, 1)) ** 4
-        wi /= np.sqrt(np.sum(wi * wi, axis=1))[:, None]
-    else:
-        wo, _ = random_pairs(rng, n)
-        wi, _ = pointwise(case.model, p).sample(wo, rng.random((n, 3)))
-    above = wi[:, 2] > HIGHEST_COSINE
-    return wo[above], wi[above]
-
-
-def all_pairs(case: Case, p: Parameters, rng: np.random.Generator, *more: Pairs) -> Pairs:
-    """Edges, random pairs, special pairs, pairs along the lobe, and `more`."""
-    kinds = [
-        edge_pairs(),
-        random_pairs(rng, case.budget(RANDOM)),
-        special_pairs(rng, case.budget(SPECIAL)),
-        lobe_pairs(case, p, rng, case.budget(LOBE)),
-        *more,
-    ]
-    return np.concatenate([k[0] for k in kinds]), np.concatenate([k[1] for k in kinds])
-
-
-def worst_pair(
-    case: Case, rng: np.random.Generator, deviation: Deviation, few: bool = False
-) -> tuple[Parameters, Pairs]:
-    """(parameters, pair) of the worst of many random pairs, each with free parameters of its own,
-    now and then at the ends of their ranges: what goes wrong in a corner of directions and
-    parameters together. deviation(wo, wi, parameter sets); few: they are costly to prepare."""
-    n = case.budget(SCATTERED)
-    wo, wi = random_pairs(rng, n)
-    t = np.clip(1.1 * rng.random((n, len(case.free))) - 0.05, 0.0, 1.0)
-    if few or case.model.prepare:
-        t = t[np.arange(n) % PREPARED]
-    sets = parameters.rows(case, t)
-    k = int(np.argmax(deviation(wo, wi, sets)))
-    return sets.parameters(k), (wo[k : k + 1], wi[k : k + 1])
-
-
-def subjects(
-    case: Case, rng: np.random.Generator, deviation: Deviation, few: bool = False
-) -> list[tuple[Parameters, *tuple[Pairs, ...]]]:
-    """Parameter sets that a law of f is asked for: the case's own, some inside, those at the ends
-    of the ranges; then those of the worst of many pairs, with that pair."""
-    sets = (*parameters.sets(case), *parameters.extremes(case))
-    found: list[tuple[Parameters, *tuple[Pairs, ...]]] = [(p,) for p in sets]
-    return [*found, worst_pair(case, rng, deviation, few)] if case.free else found
-
-
-def rounding(f: Function, wo: Array, wi: Array, rng: np.random.Generator) -> Array:
-    """How much f changes when the directions move by an ulp or two: where that is as much as what
+def rounding(f: At, wo: Array, wi: Array, rng: np.random.Generator) -> Array:
+    """How much f changes when the directions move by an ulp or some: where that is as much as what
     was found, nothing was found."""
     before, noise = f(wo, wi), np.zeros(len(wo))
     for _ in range(NEIGHBOURS):
-        moved = (w + 2.0**-52 * (w * _ulps(rng, w) + _ulps(rng, w)) for w in (wo, wi))
-        noise = np.fmax(noise, np.abs(f(*moved) - before))
+        after = f(_moved(wo, rng), _moved(wi, rng))
+        noise = np.fmax(noise, np.where(np.isfinite(after), np.abs(after - before), 0.0))
     return noise
 
 
-def _ulps(rng: np.random.Generator, w: Array) -> Array:
-    return rng.integers(-2, 3, w.shape).astype(float)
+def _moved(w: Array, rng: np.random.Generator) -> Array:
+    """By up to 4 ulps of each coordinate; near the horizon, where z = 1 - x x - y y has lost
+    digits, by up to 256. What is exactly 0 stays so: the code may ask for it."""
+    lost = (rng.random((len(w), 1)) < 0.5) & (w[:, 2:] < 1e-3)
+    ulps = rng.integers(-2, 3, w.shape) + rng.integers(-2, 3, w.shape)
+    moved: Array = w + 2.0**-52 * np.where(lost, 64.0, 1.0) * w * ulps
+    return moved
 
 
-def around(f: Function, wo: Array, wi: Array) -> Array:
+def around(f: At, wo: Array, wi: Array) -> Array:
     """The largest |f| between the polar angles of each pair, at any azimuth."""
     found, sine = np.zeros(len(wo)), np.hypot(wi[:, 0], wi[:, 1])
     start = np.arctan2(wo[:, 1], wo[:, 0])
@@ -172,25 +109,21 @@ def around(f: Function, wo: Array, wi: Array) -> Array:
 
 
 def unexplained(
-    relative: Array,
-    difference: Array,
-    tolerance: float,
-    f: Function,
-    wo: Array,
-    wi: Array,
+    relative: Array, difference: Array, tolerance: float, f: OfRows, places: Sequence[Pairs],
     rng: np.random.Generator,
-) -> Array:
+) -> Array:  # fmt: skip
     """`relative`, with 0 where rounding of the directions explains the difference (near grazing a
-    dot product such as wo . h may have no digit left), or where f itself is but a rest of rounding.
+    dot product such as wo . h may have no digit left), or where f itself is but a rest of rounding;
+    places: the pairs of directions between which f differs.
     """
     (suspect,) = np.nonzero(relative > tolerance)
     suspect = suspect[np.argsort(-relative[suspect], kind="stable")]
     rest = relative.copy()
     for start in range(0, len(suspect), SUSPECTS):  # the worst first: one that stands is enough
         some = suspect[start : start + SUSPECTS]
-        there = wo[some], wi[some]
-        excused = difference[some] <= 2.0 * rounding(f, *there, rng)
-        excused |= difference[some] <= ROUNDING * around(f, *there)
+        of_some, there = functools.partial(f, some), [(wo[some], wi[some]) for wo, wi in places]
+        noise = np.maximum.reduce([rounding(of_some, *pair, rng) for pair in there])
+        excused = difference[some] <= np.fmax(2.0 * noise, ROUNDING * around(of_some, *there[0]))
         rest[some[excused]] = 0.0
         if not excused.all():
             break

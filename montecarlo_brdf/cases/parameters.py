@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from montecarlo_brdf.cases.case import Case, Parameters, search_range
-from montecarlo_brdf.estimate.places import Rows, parameter_rows
+from montecarlo_brdf.estimate.places import Rows, rows_of
 from montecarlo_brdf.sampling.points import sobol
 
 if TYPE_CHECKING:
@@ -50,15 +50,20 @@ def at(case: Case, t: dict[str, float]) -> Parameters:
     return case.one._replace(**changed)
 
 
+def table(case: Case, t: Array) -> Array:
+    """(n, parameters): the sets that `at` makes of (n, free parameters) positions."""
+    import numpy as np
+
+    found = np.tile(np.array(tuple(case.one), dtype=float), (len(t), 1))
+    for k, name in enumerate(case.free):
+        ends = search_range(case.model, name) or (0.0, 0.0)
+        found[:, case.one._fields.index(name)] = between(*ends, t[:, k])
+    return found
+
+
 def rows(case: Case, t: Array) -> Rows:
-    """Parameter sets as `at` makes them, for (n, free parameters) positions."""
-    ranges = [search_range(case.model, n) for n in case.free]
-    columns = {
-        n: between(*ends, t[:, k])
-        for k, (n, ends) in enumerate(zip(case.free, ranges, strict=True))
-        if ends
-    }
-    return parameter_rows(case.model, columns, case.one, len(t))
+    """The same as a kernel takes them."""
+    return rows_of(case.model, case.one, table(case, t))
 
 
 def position(case: Case, p: Parameters) -> dict[str, float]:

@@ -20,7 +20,7 @@ import numpy as np
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case, Parameters
 from montecarlo_brdf.cases.directions import MIRROR, vectors
-from montecarlo_brdf.estimate.places import Rows, mean_values, pair_values
+from montecarlo_brdf.estimate.places import Rows, mean_values, seeing, values_of
 from montecarlo_brdf.estimate.quadrature import grid
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import samplers_of
@@ -137,7 +137,8 @@ def albedo(space: Space, of: Quantity) -> Value:
         own = Sampler.OWN in samplers_of(model, of)
         side = np.ones(len(w)) if own else _side(space, w, sets)
         places = np.concatenate([w, side[:, None]], axis=1)
-        found = mean_values(model, of, _nodes(space, of, stage), places, sets)
+        nodes, by = _nodes(space, of, stage), seeing(model, of)
+        found = mean_values(model, of, by, nodes, places, sets)
         return np.where(np.isfinite(found), found, math.inf)
 
     return value
@@ -147,7 +148,7 @@ def _side(space: Space, w: Array, sets: Rows) -> Array:
     """Where f has a lobe for w: 1 at its mirror direction, -1 at w itself, 0 at neither."""
 
     def f(other: Array) -> Array:
-        return pair_values(space.case.model, w, other, sets)
+        return values_of(space.case.model, space.case.model.f, w, other, sets)
 
     retro, mirror = f(w), f(w * MIRROR)
     beside = np.maximum(*(f(np.tile(vectors(0.9, phi), (len(w), 1))) for phi in (1.0, 4.0)))

@@ -23,11 +23,6 @@ if TYPE_CHECKING:
 Measure = Callable[[Plan], list[list[Measurement]]]
 
 
-def searchable(case: Case) -> bool:
-    """Whether to look beyond what was asked: not where somebody fixed every parameter."""
-    return bool(case.free) or case.one == ()
-
-
 def units(model: Model, one: Parameters) -> dict[str, float]:
     """What a hint may compare A with: the parameter that the model scales with."""
     names = [model.scales_with] if model.scales_with else list(one._fields)

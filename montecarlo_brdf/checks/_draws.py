@@ -7,21 +7,28 @@ that a small square of u covers is 1/pdf.
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from montecarlo_brdf.cases import directions, parameters
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
+from montecarlo_brdf.cases.directions import unexplained
+from montecarlo_brdf.cases.look import Look, look
+from montecarlo_brdf.cases.survey import Survey
 from montecarlo_brdf.checks._hints import azimuth_named, moved_named, shape_named, wider_named
 from montecarlo_brdf.checks._truth import AIM, integral, probes
+from montecarlo_brdf.compile.bind import Function
+from montecarlo_brdf.estimate.places import Rows, draws_of, mean_values, values_of
 from montecarlo_brdf.estimate.plan import Plan
-from montecarlo_brdf.estimate.quadrature import Integral
+from montecarlo_brdf.estimate.quadrature import Integral, grid
+from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import weighted
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Exact
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.sampling.points import stream
+from montecarlo_brdf.sampling.spread import net
 from montecarlo_brdf.statistics import Moments, estimate, hidden_error
 from montecarlo_brdf.vectors import Vec
 
@@ -42,22 +49,28 @@ CHOICES = 256
 UNIT_TOLERANCE = 1e-6
 #: replicates of the mean of (1 - pdf Jacobian)+: Student's t of 63 degrees hides no tail
 REPLICATES = 64
+#: draws of a place where all laws are asked, and replicates
+DRAWS_EACH, REPLICATES_EACH = 128, 8
+#: (slopes, azimuths), draws, and how many places are kept: of all places, then of those
+MASSES = (((48, 32), 512, 24), ((128, 128), 1 << 14, 6))
+INNER = 1e-9  # a number u is at an end if it is nearer to 0 or 1
 
 
-def values(case: Case, _: object) -> Exact:
+def values(case: Case) -> Exact:
     """How often pdf is negative or not finite, also where it is not drawn but asked by others."""
-    count, points, where, hint = 0, 0, {}, None
-    for k, p in enumerate(parameters.sets(case, 3)):
-        rng = case.random(NAME, "values", k)
-        wo, wi = directions.random_pairs(rng, case.budget(directions.RANDOM))
-        density = pointwise(case.model, p).pdf(wo, wi)
-        bad = ~(np.isfinite(density) & (density >= 0.0))
-        if bad.any() and not count:
-            j = int(np.argmax(bad))
-            where = {**parameters.changed(case, p), **directions.place(wo[j], wi[j])}
-            hint = f"pdf is {density[j]:.6g}: other samplers ask for it anywhere"
-        count, points = count + int(bad.sum()), points + len(bad)
-    return Exact(float(count), 0.0, where, points, hint=hint)
+    at = look(case)
+    density = at.values(_pdf(case.model), at.points.wo, at.points.wi)
+    (bad,) = np.nonzero(~(np.isfinite(density) & (density >= 0.0)))
+    if not len(bad):
+        return Exact(0.0, points=len(at))
+    k = int(bad[0])
+    hint = f"pdf is {density[k]:.6g}: other samplers ask for it anywhere{at.source(k)}"
+    return Exact(float(len(bad)), 0.0, at.where(k), len(at), hint=hint)
+
+
+def _pdf(model: Model) -> Function:
+    """Of a model that has one."""
+    return cast(Function, model.pdf)
 
 
 def draws(case: Case, theta: float, n: int) -> tuple[Array, Array, Array]:
@@ -95,7 +108,7 @@ def density_integral_of(model: Model, one: Parameters, wo: Vec, seed: int = 0) -
     return integral(lambda wi: pdf(fixed, wi), wo, seen, seed, AIM * MASS_TOLERANCE)
 
 
-def faults(case: Case, theta: float) -> Exact:
+def faults(case: Case) -> Exact:
     """How many draws are not finite, not of unit length, or have no density; all of them if none is
     above the horizon.
 
@@ -103,41 +116,41 @@ def faults(case: Case, theta: float) -> Exact:
     does for u^(1/(n + 1)), or where pdf is infinite: no light, with probability 0. It is told, not
     refuted.
     """
-    edges = _edges()
-    inner = case.random(NAME, "edges", theta).random((case.budget(POINTS), 3))
-    u = np.concatenate([edges, inner])
-    kinds, dark = _kinds(case, np.array(case.wo(theta)), u)
-    dark[len(edges) :] = False  # elsewhere than at the ends it is a fault like any other
-    if case.model.pdf is not None:
-        kinds["with a pdf that is not positive and finite"] &= ~dark
+    at = look(case)
+    kinds, dark = _kinds(at)
+    u = at.points.u
+    dark &= ((u < INNER) | (u > 1.0 - INNER)).any(axis=1)  # elsewhere it is a fault like any other
+    kinds = {name: bad & ~dark if "pdf" in name else bad for name, bad in kinds.items()}
     counts = {name: int(bad.sum()) for name, bad in kinds.items()}
+    first = next((int(np.argmax(bad)) for bad in kinds.values() if bad.any()), None)
+    if first is None:
+        return Exact(0.0, points=len(at), note=_told(u[dark]))
     said = ", ".join(f"{n} draws {name}" for name, n in counts.items() if n)
-    first = next((int(np.argmax(bad)) for bad in kinds.values() if bad.any()), 0)
-    hint = f"{said} (first at u = {tuple(float(v) for v in u[first])})" if said else None
-    return Exact(float(sum(counts.values())), points=len(u), note=_told(u[dark]), hint=hint)
+    hint = f"{said} (first at u = {tuple(map(float, u[first]))}){at.source(first)}"
+    where = {k: v for k, v in at.where(first).items() if not k.endswith("_i_deg")}
+    return Exact(float(sum(counts.values())), 0.0, where, len(at), note=_told(u[dark]), hint=hint)
 
 
-def _kinds(case: Case, wo: Array, u: Array) -> tuple[dict[str, Flags], Flags]:
+def _kinds(at: Look) -> tuple[dict[str, Flags], Flags]:
     """Which draws have which fault, and which have neither pdf nor f."""
-    functions = pointwise(case.model, case.one)
-    w, weights = functions.sample(wo, u)
+    w, weights = at.draws
     finite = np.isfinite(w).all(axis=1)
     length = np.sqrt(np.sum(np.where(np.isfinite(w), w, 0.0) ** 2, axis=1))
-    above, dark = finite & (w[:, 2] > 0.0), np.zeros(len(u), dtype=bool)
+    above, dark = finite & (w[:, 2] > 0.0), np.zeros(len(w), dtype=bool)
     kinds = {
         "not finite": ~finite,
         "not of unit length": above & (np.abs(length - 1.0) > UNIT_TOLERANCE),
     }
     if not above.any():
         kinds["below the horizon, which is all of them"] = finite
-    if weighted(case.model):
+    if weighted(at.model):
         kinds["with a weight that is not finite"] = above & ~np.isfinite(weights)
-    if case.model.pdf is not None:
-        up = np.where(above[:, None], w, wo)
-        density = functions.pdf(wo, up)
+    if at.model.pdf is not None:
+        up = np.where(above[:, None], w, at.points.wo)
+        density = at.values(at.model.pdf, at.points.wo, up)
         bad = ~(np.isfinite(density) & (density > 0.0))
         kinds["with a pdf that is not positive and finite"] = above & bad
-        dark = above & (density == 0.0) & (functions.f(wo, up) == 0.0)
+        dark = above & (density == 0.0) & (at.values(at.model.f, at.points.wo, up) == 0.0)
         dark |= above & np.isposinf(density)
     return kinds, dark
 
@@ -148,12 +161,6 @@ def _told(u: Array) -> str | None:
         return None
     first = tuple(float(v) for v in u[0])
     return f"pdf is 0 as f, or infinite, at exactly u = {first}: a renderer must skip such draws"
-
-
-def _edges() -> Array:
-    """Numbers next to 0 and 1."""
-    ends = (0.0, 5e-324, 2.0**-53, 0.5, 1.0 - 2.0**-53)
-    return np.array([(a, b, 0.5) for a in ends for b in ends])
 
 
 def deficit(case: Case, theta: float, plan: Plan) -> list[Measurement]:
@@ -184,15 +191,21 @@ def _moments(x: Array) -> Moments:
 
 
 def _ratio(case: Case, theta: float, u: Array) -> tuple[Array, Array, Array]:
+    """`_ratios` of draws for one direction."""
+    at = pointwise(case.model, case.one)
+    return _ratios(at.model, np.tile(case.wo(theta), (len(u), 1)), u, at.sets)
+
+
+def _ratios(model: Model, wo: Array, u: Array, sets: Rows) -> tuple[Array, Array, Array]:
     """(pdf J, J, directions) of draws, J by central differences; pdf J is NaN below the horizon and
     where J is 0."""
-    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    w, _ = functions.sample(wo, u)
+    w = draws_of(model, wo, u, sets)[0]
     steps = STEP * np.eye(3)[:2]
-    slopes = [functions.sample(wo, u + h)[0] - functions.sample(wo, u - h)[0] for h in steps]
+    ends = [[draws_of(model, wo, u + h, sets)[0] for h in (step, -step)] for step in steps]
+    slopes = [ahead - behind for ahead, behind in ends]
     area = np.linalg.norm(np.cross(slopes[0], slopes[1]), axis=1) / (2.0 * STEP) ** 2
     usable = np.isfinite(w).all(axis=1) & (w[:, 2] > 0.0) & (area > 0.0)
-    density = functions.pdf(wo, np.where(usable[:, None], w, wo))
+    density = values_of(model, _pdf(model), wo, np.where(usable[:, None], w, wo), sets)
     return np.where(usable, density * area, np.nan), area, w
 
 
@@ -226,19 +239,70 @@ def ratio_hint(case: Case, theta: float) -> str:
     return f"{said}{azimuth_named(ratio, w) or wider_named(ratio, ratio / area)}"
 
 
-def weight(case: Case, theta: float) -> Exact:
-    """The largest relative difference of the returned weight from f cos/pdf."""
-    functions, wo = pointwise(case.model, case.one), np.array(case.wo(theta))
-    _, w, weight = draws(case, theta, case.budget(POINTS))
-    above = (w[:, 2] > 0.0) & np.isfinite(weight)
-    expected = functions.f(wo, w[above]) * w[above][:, 2] / functions.pdf(wo, w[above])
-    ratio = weight[above] / np.where(expected == 0.0, 1e-300, expected)
-    ratio = np.where((expected == 0.0) & (weight[above] == 0.0), 1.0, ratio)
-    k = int(np.argmax(np.abs(ratio - 1.0)))
-    named = shape_named(ratio, np.broadcast_to(wo, w[above].shape), w[above])
-    middle = f"{float(np.median(ratio)):.6g} in the middle"
-    hint = f"weight/(f cos/pdf) = {named or middle}"
-    whole = expected * functions.pdf(wo, w[above])
-    if whole.any() and np.allclose(weight[above], whole, rtol=1e-6, atol=0.0):
-        hint = "the weight is f cos: it is not divided by the pdf"
-    return Exact(float(abs(ratio[k] - 1.0)), points=int(above.sum()), hint=hint)
+def weight(case: Case) -> Exact:
+    """The largest relative difference of the returned weight from f cos/pdf, beyond rounding."""
+    at = look(case)
+    w, weights = at.draws
+    (rows,) = np.nonzero(np.isfinite(weights) & (w[:, 2] > 0.0))
+    wo, wi, weights = at.points.wo[rows], w[rows], weights[rows]
+
+    def due(index: Array, a: Array, b: Array) -> Array:
+        some = rows[index]
+        f, pdf = at.values(at.model.f, a, b, some), at.values(_pdf(at.model), a, b, some)
+        ratio: Array = f * b[:, 2] / np.where(pdf > 0.0, pdf, np.nan)
+        return ratio
+
+    expected = due(np.arange(len(rows)), wo, wi)
+    known = np.isfinite(expected)  # where pdf is at fault its own claims say so
+    apart = np.where(known, np.abs(weights - expected), 0.0)
+    relative = apart / np.where(known & (expected != 0.0), np.abs(expected), 1e-300)
+    rng = case.random(NAME, "weight")
+    relative = unexplained(relative, apart, UNIT_TOLERANCE, due, [(wo, wi)], rng)
+    k = int(np.argmax(relative)) if len(rows) else 0
+    if not len(rows) or not relative[k] > UNIT_TOLERANCE:
+        return Exact(float(relative.max(initial=0.0)), points=len(rows))
+    hint = _weight_hint(weights, expected, wo, wi) + at.source(int(rows[k]))
+    return Exact(float(relative[k]), 0.0, at.where(int(rows[k])), len(rows), hint=hint)
+
+
+def _weight_hint(weights: Array, expected: Array, wo: Array, wi: Array) -> str:
+    """What weight/(f cos/pdf) is."""
+    usable = np.isfinite(expected) & (expected != 0.0)
+    ratio = weights[usable] / expected[usable]
+    named = shape_named(ratio, wo[usable], wi[usable])
+    return f"weight/(f cos/pdf) = {named or f'{float(np.median(ratio)):.6g} in the middle'}"
+
+
+def deficits(at: Survey) -> Array:
+    """(places, replicates) of the mean of (1 - pdf J)+, see `deficit`; only if u[2] changes
+    nothing."""
+    size = at.case.budget(DRAWS_EACH, REPLICATES_EACH)
+    many = np.repeat(np.arange(len(at.points.wo)), size)
+    u = np.tile(_inner(at.case.random(NAME, "survey"), size), (len(at.points.wo), 1))
+    ratio = _ratios(at.model, at.points.wo[many], u, at.at.sets.at(many))[0]
+    lost = np.where(np.isfinite(ratio), np.maximum(1.0 - ratio, 0.0), 0.0)
+    found: Array = lost.reshape(len(at.points.wo), REPLICATES_EACH, -1).mean(axis=2)
+    return found
+
+
+def heaviest(at: Survey) -> list[int]:
+    """The places where int pdf, in slopes of half vectors, and the rejected draws add up to what is
+    farthest from 1, the farthest first."""
+    index = np.arange(len(at.points.wo))
+    for cells, draws, many in MASSES:
+        found = np.abs(_masses(at, index, cells, draws) - 1.0)
+        index = index[np.argsort(-np.where(np.isfinite(found), found, np.inf))[:many]]
+    return [int(k) for k in index]
+
+
+def _masses(at: Survey, index: Array, cells: tuple[int, int], draws: int) -> Array:
+    groups, numbers = at.at.at(index), net(draws, 5)
+    x, b, weight = grid(*cells)
+    nodes = np.stack([x, b, np.zeros(len(x)), weight], axis=1)
+    places = np.concatenate([groups.wo, np.ones((len(index), 1))], axis=1)
+    mass = mean_values(at.model, Quantity.MASS, Sampler.SLOPES, nodes, places, groups.sets)
+    many = np.repeat(np.arange(len(index)), draws)
+    u = np.tile(numbers, (len(index), 1))
+    w = draws_of(at.model, groups.wo[many], u, groups.sets.at(many))[0]
+    found: Array = mass + (~(w[:, 2] > 0.0)).reshape(len(index), draws).mean(axis=1)
+    return found

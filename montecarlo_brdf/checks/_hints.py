@@ -11,7 +11,7 @@ import numpy as np
 from montecarlo_brdf.judge.hint import CLOSE, factor_named
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array, Function, Pairs
+    from montecarlo_brdf.cases.directions import Array, At, Pairs
 
     Move = Callable[[Array, Array], Pairs]
 
@@ -68,7 +68,7 @@ def _quarter(w: Array) -> Array:
     return np.stack([-w[:, 1], w[:, 0], w[:, 2]], axis=-1)
 
 
-def moved_named(ratio: Function, wo: Array, wi: Array) -> str | None:
+def moved_named(ratio: At, wo: Array, wi: Array) -> str | None:
     """How directions must be changed for ratio(wo, wi) to become 1, if it is one of the usual ways
     of confusing them."""
 
@@ -101,7 +101,7 @@ def azimuth_named(ratio: Array, w: Array) -> str:
     return ": it changes with the azimuth, look at how phi is drawn" if changes else ""
 
 
-def dependence_named(ratio: Function, wo: Array, wi: Array) -> str | None:
+def dependence_named(ratio: At, wo: Array, wi: Array) -> str | None:
     """What the deviation of a ratio from 1 depends on, asked by moving the directions: on the half
     vector alone (distribution, Fresnel) or on the two polar angles alone (masking, cosines)."""
     before = ratio(wo, wi)

@@ -12,17 +12,19 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from montecarlo_brdf.cases import directions, parameters
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
+from montecarlo_brdf.cases.look import Look, look
+from montecarlo_brdf.cases.points import even
+from montecarlo_brdf.checks._difference import worst
 from montecarlo_brdf.checks._hints import dependence_named, moved_named, shape_named
-from montecarlo_brdf.estimate.places import Rows, pair_values, parameter_rows
-from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference, Skip, worst_of
+from montecarlo_brdf.estimate.places import parameter_rows, values_of
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference, Skip
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model, Property
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array, Pairs
+    from montecarlo_brdf.cases.directions import Array
 
 NAME = "equality"
 QUESTION = "is it the model that it says it is?"
@@ -34,7 +36,9 @@ MAPPINGS = {
     "{} in degrees": math.radians,
     "{} in radians": math.degrees,
 }
-TOLERANCE = 1e-6  # relative to the larger of the two values, and to 1e-6 of the largest
+TOLERANCE = 1e-6  # relative to the larger of the two values
+ROUNDED = 1e-6  # of the median of f: values below are held against that
+SOME = 20_000  # points that are looked at for a cause
 
 
 class Cause(NamedTuple):
@@ -56,24 +60,8 @@ def claims(case: Case) -> Iterator[Claim]:
         Bound.AT_MOST,
         Reference(0.0, 0.0, Kind.DECLARED, f"same as {other.name}"),
         case.tolerated(TOLERANCE),
-        lambda: worst(case, other),
+        lambda: difference(case, other),
         property=PROPERTY,
-    )
-
-
-def worst(case: Case, other: Model) -> Exact:
-    """The worst difference over the directions, and over the ranges of free parameters."""
-
-    def apart(wo: Array, wi: Array, sets: Rows) -> Array:
-        same = parameter_rows(other, sets.columns(other.Params), shared(other, case.one), len(wo))
-        ours = pair_values(case.model, wo, wi, sets)
-        return _relative(ours, pair_values(other, wo, wi, same))
-
-    few = other.prepare is not None
-    found = directions.subjects(case, case.random(NAME, "all"), apart, few)
-    return worst_of(
-        difference(case, p, other, shared(other, p), case.random(NAME, k), *more)
-        for k, (p, *more) in enumerate(found)
     )
 
 
@@ -84,42 +72,39 @@ def shared(other: Model, p: Parameters) -> Parameters:
     return found
 
 
-def difference(
-    case: Case, p: Parameters, other: Model, q: Parameters, rng: np.random.Generator, *more: Pairs
-) -> Exact:
-    """The worst relative difference of two models' values; `more` pairs than usual."""
-    wo, wi = directions.all_pairs(case, p, rng, *more)
-    ours, theirs = pointwise(case.model, p).f(wo, wi), pointwise(other, q).f(wo, wi)
+def difference(case: Case, other: Model, *name: object, q: Parameters | None = None) -> Exact:
+    """The worst relative difference of two models' values, with the parameters that they share, or
+    with the other's set q."""
+    at, rng, n = look(case), case.random(NAME, *name), len(look(case))
+    columns = {} if q else at.sets.columns(other.Params)
+    same = parameter_rows(other, columns, q or shared(other, case.one), n)
+    theirs = values_of(other, other.f, at.points.wo, at.points.wi, same)
+    usual = float(np.nanmedian(np.abs(at.f)) / max(np.nanmax(np.abs(at.f)), 1e-300))
+    there = at.points.wo, at.points.wi
+    k, found = worst(at, theirs, there, ROUNDED * usual, TOLERANCE)
+    hint = _told(at, k, other, same.parameters(k), rng) if found > TOLERANCE else None
+    return Exact(found, 0.0, at.where(k), n, hint=hint)
+
+
+def _told(at: Look, k: int, other: Model, q: Parameters, rng: np.random.Generator) -> str:
+    """What the two models say of their difference, with the parameters of a point."""
+    p = at.parameters(k)
+    some = slice(None, None, max(1, len(at) // SOME))
+    wo, wi = (np.concatenate([w[some], w[k : k + 1]]) for w in (at.points.wo, at.points.wi))
+    ours, theirs = pointwise(at.model, p).f(wo, wi), pointwise(other, q).f(wo, wi)
     usable = np.isfinite(ours) & np.isfinite(theirs)
     ours, theirs = np.where(usable, ours, 0.0), np.where(usable, theirs, 0.0)
-    relative = _relative(ours, theirs)
-    if relative.max(initial=0.0) > TOLERANCE:
-        f, apart = pointwise(case.model, p).f, np.abs(ours - theirs)
-        relative = directions.unexplained(relative, apart, TOLERANCE, f, wo, wi, rng)
-    k = int(np.argmax(relative))
-    where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
-    hint = None
-    if relative[k] > TOLERANCE:
-        cause = _remapped(ours, wo, wi, other, q) or _cause(ours, theirs, wo, wi, k)
-        moved = None if cause.everywhere else _moved(case, p, other, q, rng)
-        hint = f"{cause.text}; {moved}" if moved else cause.text
-    return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
-
-
-def _relative(ours: Array, theirs: Array) -> Array:
-    """|f - f'|/f; 0 where one of them is not finite, which is positivity's business."""
-    difference = np.where(np.isfinite(ours) & np.isfinite(theirs), np.abs(ours - theirs), 0.0)
-    high = np.maximum(np.abs(ours), np.abs(theirs))
-    floor = max(1e-6 * float(np.nanmedian(high)), 1e-300)
-    return difference / np.fmax(high, floor)
+    cause = _remapped(ours, wo, wi, other, q) or _cause(ours, theirs, wo, wi, -1)
+    moved = None if cause.everywhere else _moved(at.case, p, other, q, rng)
+    return (f"{cause.text}; {moved}" if moved else cause.text) + at.source(k)
 
 
 def _moved(
     case: Case, p: Parameters, other: Model, q: Parameters, rng: np.random.Generator
 ) -> str | None:
     """What turning or swapping directions says about the difference."""
-    kinds = directions.random_pairs(rng, 400), directions.lobe_pairs(case, p, rng, 2000)
-    wo, wi = (np.concatenate(side) for side in zip(*kinds, strict=True))
+    at = even(case._replace(p=p, free=()), 2400, NAME)
+    wo, wi = at.wo, at.wi
     ordinary = (wo[:, 2] > 0.1) & (wi[:, 2] > 0.1)
     wo, wi = wo[ordinary], wi[ordinary]
     one, two = pointwise(case.model, p).f, pointwise(other, q).f

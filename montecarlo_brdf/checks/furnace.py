@@ -39,7 +39,7 @@ def claims(case: Case) -> Iterator[Claim]:
     """Two per angle and channel, and for a mixture that its weights add up to at most 1."""
     for theta in case.theta_o_deg:
         yield from at_angle(case, theta)
-    if case.model.albedo and _albedo.searchable(case):
+    if case.model.albedo and case.viewer is None and case.samplers is None:
         from montecarlo_brdf.checks import _deviation  # imports numpy
 
         known = case.model.albedo
@@ -82,6 +82,7 @@ def at_angle(case: Case, theta: float) -> Iterator[MeanClaim]:
             property=PROPERTY,
             unit=_albedo.units(case.model, one),
             fallback=quadrature,
+            of_f=True,
         )
 
 

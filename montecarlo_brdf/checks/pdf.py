@@ -15,26 +15,37 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import _draws
+from montecarlo_brdf.cases.survey import Survey, sure, survey
+from montecarlo_brdf.checks import _draws, _mixture
 from montecarlo_brdf.checks._draws import MASS_TOLERANCE
 from montecarlo_brdf.checks._truth import RESOLVED
 from montecarlo_brdf.estimate.evaluate import estimates
+from montecarlo_brdf.estimate.mixture import Nodes
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity
-from montecarlo_brdf.estimate.samplers import integrand
+from montecarlo_brdf.estimate.samplers import integrand, weighted
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, MeanClaim, Reference, Skip
+from montecarlo_brdf.judge.decide import LEVEL
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.judge.mean import FRESH
 from montecarlo_brdf.model import Property
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.statistics import Estimate, hidden_error
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.cases.directions import Array
+
+#: times the samples, for the rejected draws: an edge in the integrand, but a cheap one
+EDGE = (4, 32)
+LAST = 1 << 21  # nodes of the mixture where nothing else decides
+GRAZING = 86.0  # degrees: beyond that samplers tend to have a way of their own
 
 NAME = "pdf"
 QUESTION = "does the pdf integrate to 1, is it the sampler's Jacobian, is the weight f cos/pdf?"
@@ -44,10 +55,8 @@ SIGMAS = 6.1
 SAMPLES = 1 << 21  # of the mass by uniform directions
 #: of the draws: the share that pdf may lack
 JACOBIAN_TOLERANCE = 2e-3
-#: degrees: beyond that samplers tend to have a way of their own
-GRAZING = 86.0
 #: a law that a case and an angle are asked about
-Evaluation = Callable[[Case, Any], Exact]
+Evaluation = Callable[[Case], Exact]
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -55,33 +64,48 @@ def claims(case: Case) -> Iterator[Claim]:
     if case.model.sample is None:
         yield Skip("pdf", f"model {case.model.name} has no sampler")
         return
+    yield _claim(case, "drawn directions at fault", 0.0, _draws.faults)
+    if case.model.pdf is None:
+        return
+    yield _claim(case, "values of pdf at fault", 0.0, _draws.values)
+    chosen = any(_draws.chooses(case, theta) for theta in (*case.theta_o_deg, GRAZING))
+    if weighted(case.model):
+        yield _weights(case, chosen)
     for theta in case.theta_o_deg:
-        yield _claim(case, theta, "drawn directions at fault", 0.0, _draws.faults)
-        if case.model.pdf is not None:
-            yield _normalisation(case, theta)
-            yield from _pointwise(case, theta)
-    for other, theta in (
-        *parameters.elsewhere(case),
-        (case, GRAZING),
-        *parameters.at_extremes(case),
-    ):
-        yield _claim(other, theta, "drawn directions at fault", 0.0, _draws.faults)
-        if case.model.pdf is not None:
-            if resolved(other, theta):
-                yield _normalisation(other, theta)
-            yield from _pointwise(other, theta)
-    if case.model.pdf is not None:
-        yield _claim(case, None, "values of pdf at fault", 0.0, _draws.values)
+        yield _normalisation(case, theta)
+        yield from _differences(case, theta)
+    at = survey(case)
+    for k in {*_decidable(at), _mixture.worst(at, at.mass - 1.0, _excess)}:
+        yield _normalisation(*at.place(k))
+    if not chosen:
+        yield from _differences(*at.place(int(np.argmax(sure(_draws.deficits(at))))))
 
 
-def _pointwise(case: Case, theta: float) -> Iterator[Claim]:
-    """What holds draw by draw."""
+def _weights(case: Case, chosen: bool) -> Claim:
+    """Where draws choose among lobes a weight may be right on average alone."""
+    if chosen:
+        return Skip("|weight/(f cos/pdf) - 1|", "the sampler chooses among lobes: see `cover`")
+    return _claim(case, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, _draws.weight)
+
+
+def _decidable(at: Survey) -> list[int]:
+    """The heaviest place whose density the quadrature resolves: elsewhere nothing would be said."""
+    for k in _draws.heaviest(at):
+        if _draws.density_integral(*at.place(k)).error <= RESOLVED * MASS_TOLERANCE:
+            return [k]
+    return []
+
+
+def _excess(nodes: Nodes) -> Array:
+    return nodes.mass - 1.0
+
+
+def _differences(case: Case, theta: float) -> Iterator[Claim]:
+    """What differences of neighbouring draws say."""
     if _draws.chooses(case, theta):
         yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
     else:
         yield _jacobian(case, theta)
-    if np.isfinite(_draws.draws(case, theta, case.budget(_draws.POINTS))[2]).any():
-        yield _claim(case, theta, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, _draws.weight)
 
 
 def _jacobian(case: Case, theta: float) -> MeanClaim:
@@ -97,34 +121,22 @@ def _jacobian(case: Case, theta: float) -> MeanClaim:
     )
 
 
-def resolved(case: Case, theta: float) -> bool:
-    """Whether the quadrature of pdf is good enough to judge by."""
-    found = _draws.density_integral(case, theta)
-    return bool(found.error <= RESOLVED * MASS_TOLERANCE)
-
-
-def _claim(
-    case: Case, theta: float | None, quantity: str, tolerance: float, evaluate: Evaluation
-) -> ExactClaim:
+def _claim(case: Case, quantity: str, tolerance: float, evaluate: Evaluation) -> ExactClaim:
     return ExactClaim(
         quantity,
-        _where(case, theta),
+        {},
         Bound.AT_MOST,
         Reference(0.0, 0.0, Kind.LAW, "sampler and density belong together"),
         tolerance,
-        functools.partial(evaluate, case, theta),
+        functools.partial(evaluate, case),
         property=PROPERTY,
     )
-
-
-def _where(case: Case, theta: float | None) -> dict[str, Any]:
-    return parameters.changed(case, case.one) if theta is None else parameters.where(case, theta)
 
 
 def _normalisation(case: Case, theta: float) -> MeanClaim:
     return MeanClaim(
         "int pdf + rejected",
-        _where(case, theta),
+        parameters.where(case, theta),
         Bound.EQUAL,
         Reference(1.0, 0.0, Kind.LAW, "a density integrates to 1"),
         case.tolerated(MASS_TOLERANCE),
@@ -159,9 +171,12 @@ def _held(case: Case, theta: float, seed: int) -> Measurement:
 
 
 def _rejected(case: Case, theta: float, plan: Plan) -> Estimate:
-    more = plan._replace(samples=4 * plan.samples)  # an edge in the integrand, but a cheap one
     lost = integrand(case.model, Quantity.REJECTED, Sampler.OWN)
-    rows = estimates(case.model, case.one, case.wo(theta), [lost], more, (NAME,))
+    for times in EDGE:
+        more = plan._replace(samples=times * plan.samples)
+        rows = estimates(case.model, case.one, case.wo(theta), [lost], more, (NAME,))
+        if rows[0][0].half_width(LEVEL) < RESOLVED * case.tolerated(MASS_TOLERANCE):
+            break
     return rows[0][0]
 
 

@@ -1,47 +1,48 @@
 """Positivity: is f finite and at least 0 everywhere?
 
-Over edge pairs (theta up to 90 degrees less an ulp, wi = wo, wi = mirror, wi . wo = 0), random
-pairs, pairs along the lobe; for the parameters asked about, some of the interior, and each at the
-ends of its range. A value below zero counts if it is more than rounding where it was computed:
-1e-12 of the largest |f| between the same polar angles, at any azimuth, or of the median of |f|.
-(Not of the largest |f| at all: where that is unbounded it would hide any value.)
+At the points that all laws are asked at (cases.points): edge pairs (theta up to 90 degrees less an
+ulp, wi = wo, wi = mirror, wi . wo = 0), everywhere, along the lobe, where the code branches. What
+lies below zero counts if it is more than rounding where it was computed: 1e-12 of the largest |f|
+between the same polar angles, at any azimuth, and of the median of |f| with its parameters. (Not of
+the largest |f| at all: where that is unbounded it would hide any value.) A disclaimer of positivity
+is about negative values: what is no number is never excused.
 It cannot see: a wrong value that is finite and positive.
 """
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from montecarlo_brdf.cases import directions, parameters
-from montecarlo_brdf.cases.case import Case, Parameters, pointwise
-from montecarlo_brdf.estimate.places import Rows, pair_values
+from montecarlo_brdf.cases import directions
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.cases.look import Look, look
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array, Deviation
+    from montecarlo_brdf.cases.directions import Array
 
 NAME = "positivity"
 QUESTION = "finite and >= 0 everywhere?"
 PROPERTY = Property.POSITIVITY
+LOWEST = 256  # values below zero, the lowest, that are held against those around them
+USUAL = 64  # pairs whose median says how large f is with some parameters
 
 
 def claims(case: Case) -> Iterator[Claim]:
     """No value that is not finite, and no negative one."""
-    seen = functools.cache(lambda: _seen(case))
     yield ExactClaim(
         "values of f not finite",
         {},
         Bound.AT_MOST,
         Reference(0.0, 0.0, Kind.LAW, "a BRDF is a density of reflected light"),
         0.0,
-        lambda: seen()[0],
-        property=PROPERTY,
+        lambda: _not_finite(look(case)),
+        property=None,
     )
     yield ExactClaim(
         "smallest f / f around it",
@@ -49,70 +50,47 @@ def claims(case: Case) -> Iterator[Claim]:
         Bound.AT_LEAST,
         Reference(0.0, 0.0, Kind.LAW, "a BRDF is a density of reflected light"),
         case.tolerated(directions.ROUNDING),
-        lambda: seen()[1],
+        lambda: _smallest(look(case)),
         property=PROPERTY,
     )
 
 
-def _lowest(case: Case) -> Deviation:
-    """How low f is at many pairs, each with parameters of its own; what is no number first."""
-
-    def lowest(wo: Array, wi: Array, sets: Rows) -> Array:
-        f = pair_values(case.model, wo, wi, sets)
-        return np.where(np.isfinite(f), -f, np.inf)
-
-    return lowest
-
-
-def _values(case: Case) -> Iterator[tuple[Parameters, Array, Array, Array]]:
-    found = directions.subjects(case, case.random(NAME, "all"), _lowest(case))
-    for k, (p, *more) in enumerate(found):
-        wo, wi = directions.all_pairs(case, p, case.random(NAME, k), *more)
-        yield p, wo, wi, pointwise(case.model, p).f(wo, wi)
+def _not_finite(at: Look) -> Exact:
+    """How many values are not finite, and the place of the first."""
+    (bad,) = np.nonzero(~np.isfinite(at.f))
+    if not len(bad):
+        return Exact(0.0, points=len(at))
+    k = int(bad[0])
+    hint = f"f is {at.f[k]} at {_name(at.points.wo[k], at.points.wi[k])}: look for 0/0, 1/0 or "
+    hint = f"{hint}the root of a negative{at.source(k)}"
+    return Exact(float(len(bad)), 0.0, at.where(k), len(at), hint=hint)
 
 
-def _seen(case: Case) -> tuple[Exact, Exact]:
-    """How many values are not finite, and the smallest one in relation to those around it."""
-    wild, low = Exact(0.0, points=0), Exact(0.0, points=0)
-    for p, wo, wi, f in _values(case):
-        wild = _not_finite(case, p, wo, wi, f, wild)
-        low = _smallest(case, p, wo, wi, f, low)
-    return wild, low
-
-
-def _not_finite(case: Case, p: Parameters, wo: Array, wi: Array, f: Array, found: Exact) -> Exact:
-    """`found` with the values that are not finite counted, and the place of the first."""
-    bad, points = ~np.isfinite(f), found.points + len(f)
-    if bad.any() and not found.value:
-        k = int(np.argmax(bad))
-        where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
-        hint = f"f is {f[k]} at {_name(wo[k], wi[k])}: look for 0/0, 1/0 or the root of a negative"
-        return Exact(float(bad.sum()), 0.0, where, points, hint=hint)
-    return found._replace(value=found.value + float(bad.sum()), points=points)
-
-
-def _smallest(case: Case, p: Parameters, wo: Array, wi: Array, f: Array, found: Exact) -> Exact:
-    """`found`, or a value that lies deeper below zero."""
-    (low,) = np.nonzero(np.isfinite(f) & (f < 0.0))
-    points = found.points + len(f)
+def _smallest(at: Look) -> Exact:
+    """The value that lies deepest below zero, in relation to those around it."""
+    (low,) = np.nonzero(np.isfinite(at.f) & (at.f < 0.0))
     if not len(low):
-        return found._replace(points=points)
-    value = f[low] / _scale(case, p, wo[low], wi[low])
-    if value.min() >= found.value:
-        return found._replace(points=points)
-    k = low[int(np.argmin(value))]
-    where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
-    hint = f"f = {f[k]:.6g} at {_name(wo[k], wi[k])}"
-    return Exact(float(value.min()), 0.0, where, points, hint=hint)
+        return Exact(0.0, points=len(at))
+    low = low[np.argsort(at.f[low], kind="stable")][:LOWEST]
+    value = at.f[low] / _scale(at, low)
+    j = int(np.argmin(value))
+    k = int(low[j])
+    hint = f"f = {at.f[k]:.6g} at {_name(at.points.wo[k], at.points.wi[k])}{at.source(k)}"
+    return Exact(float(value[j]), 0.0, at.where(k), len(at), hint=hint)
 
 
-def _scale(case: Case, p: Parameters, wo: Array, wi: Array) -> Array:
-    """The largest |f| between the polar angles of each pair, and at least the median of |f|."""
-    pairs = directions.random_pairs(case.random(NAME, "median"), case.budget(directions.RANDOM))
-    f = np.abs(pointwise(case.model, p).f(*pairs))
-    f = f[np.isfinite(f) & (f > 0.0)]
-    scale = np.full(len(wo), np.median(f) if len(f) else 1.0)
-    highest: Array = np.fmax(scale, directions.around(pointwise(case.model, p).f, wo, wi))
+def _scale(at: Look, low: Array) -> Array:
+    """The largest |f| between the polar angles of each point, and at least the median of |f|."""
+    rng = at.case.random(NAME, "median")
+    wo, wi = directions.random_pairs(rng, USUAL)
+    many, each = np.repeat(low, USUAL), (len(low), 1)
+    f = np.abs(at.values(at.model.f, np.tile(wo, each), np.tile(wi, each), many))
+    f = np.where(np.isfinite(f) & (f > 0.0), f, np.nan).reshape(len(low), USUAL)
+    dark = np.isnan(f).all(axis=1)
+    median = np.where(dark, 1.0, np.nanmedian(np.where(dark[:, None], 1.0, f), axis=1))
+    there = at.points.wo[low], at.points.wi[low]
+    found = directions.around(lambda a, b: at.values(at.model.f, a, b, low), *there)
+    highest: Array = np.fmax(median, found)
     return highest
 
 

@@ -1,9 +1,7 @@
 """Reciprocity: f(wo, wi) = f(wi, wo)? (Helmholtz; without it bidirectional methods are wrong.)
 
-The worst relative difference over edge pairs, random pairs and pairs along the lobe, for the
-parameters asked about, some of the interior, and those of the worst of many pairs with parameters
-of their own. It cannot see: a violation between the pairs looked at, or below what moving the
-directions by two ulps does.
+The worst relative difference over the points that all laws are asked at (cases.points). It cannot
+see: a violation between the pairs looked at, or below what moving the directions by some ulps does.
 """
 
 from __future__ import annotations
@@ -13,23 +11,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from montecarlo_brdf.cases import directions, parameters
+from montecarlo_brdf.cases import directions
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
-from montecarlo_brdf.estimate.places import Rows, pair_values
-from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference, worst_of
+from montecarlo_brdf.cases.look import Look, look
+from montecarlo_brdf.checks._difference import worst
+from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array, Pairs
+    from montecarlo_brdf.cases.directions import Array
 
 NAME = "reciprocity"
 QUESTION = "f(wo, wi) = f(wi, wo)?"
 PROPERTY = Property.RECIPROCITY
 #: relative; rounding of directions moves a lobe of width alpha by eps/alpha, far below this
 TOLERANCE = 1e-6
-#: values below this share of the largest are rounding
-NEGLIGIBLE = 1e-25
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -40,53 +37,20 @@ def claims(case: Case) -> Iterator[Claim]:
         Bound.AT_MOST,
         Reference(0.0, 0.0, Kind.LAW, "Helmholtz reciprocity"),
         case.tolerated(TOLERANCE),
-        lambda: worst(case),
+        lambda: _worst(look(case)),
         property=PROPERTY,
     )
 
 
-def worst(case: Case) -> Exact:
-    """The worst pair over all parameter sets."""
-    found = [_worst_of(case, p, case.random(NAME, k)) for k, p in enumerate(parameters.sets(case))]
-
-    def asymmetry(wo: Array, wi: Array, sets: Rows) -> Array:
-        there = pair_values(case.model, wo, wi, sets)
-        return _relative(there, pair_values(case.model, wi, wo, sets))
-
-    if case.free:
-        p, pair = directions.worst_pair(case, case.random(NAME, "everywhere"), asymmetry)
-        one = _worst_of(case, p, case.random(NAME, "there"), pair)
-        found.append(one._replace(points=one.points + case.budget(directions.SCATTERED)))
-    return worst_of(reversed(found))  # of equal ones the first
-
-
-def _relative(there: Array, back: Array) -> Array:
-    """|f - f'|/max(f, f'); 0 where one of them is not finite, which is positivity's business."""
-    usable = np.isfinite(there) & np.isfinite(back)
-    there, back = np.where(usable, there, 0.0), np.where(usable, back, 0.0)
-    high = np.maximum(np.abs(there), np.abs(back))
-    floor = NEGLIGIBLE * float(high.max(initial=0.0))
-    return np.abs(there - back) / np.maximum(high, floor if floor > 0.0 else 1.0)
-
-
-def _worst_of(case: Case, p: Parameters, rng: np.random.Generator, *more: Pairs) -> Exact:
-    wo, wi = directions.all_pairs(case, p, rng, *more)
-    f = pointwise(case.model, p).f
-    there, back = f(wo, wi), f(wi, wo)
-    relative = _relative(there, back)
-    k = int(np.argmax(relative))
-    if relative[k] > TOLERANCE:
-        with np.errstate(invalid="ignore"):
-            apart = np.abs(there - back)
-        relative = directions.unexplained(relative, apart, TOLERANCE, f, wo, wi, rng)
-    k = int(np.argmax(relative))
-    where = {**parameters.changed(case, p), **directions.place(wo[k], wi[k])}
-    hint = f"f = {there[k]:.6g} one way and {back[k]:.6g} the other"
-    if named := _cosine_named(there[k], back[k], wo[k], wi[k]):
+def _worst(at: Look) -> Exact:
+    back = at.values(at.model.f, at.points.wi, at.points.wo)
+    k, deviation = worst(at, back, (at.points.wi, at.points.wo), tolerance=TOLERANCE)
+    hint = f"f = {at.f[k]:.6g} one way and {back[k]:.6g} the other"
+    if named := _cosine_named(at.f[k], back[k], at.points.wo[k], at.points.wi[k]):
         hint += f": their ratio is {named}, a cosine belongs to one direction only"
-    elif relative[k] > TOLERANCE and _one_sided(case, p, rng):
+    elif deviation > TOLERANCE and _one_sided(at.case, at.parameters(k), at.case.random(NAME)):
         hint += ": f is symmetric but for a factor that depends on one direction alone"
-    return Exact(float(relative[k]), 0.0, where, len(wo), hint=hint)
+    return Exact(deviation, 0.0, at.where(k), len(at), hint=hint + at.source(k))
 
 
 def _one_sided(case: Case, p: Parameters, rng: np.random.Generator) -> bool:

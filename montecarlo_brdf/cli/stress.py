@@ -80,9 +80,9 @@ def show_point(model: Model, sets: Sequence[Any] | None, text: str) -> int:
     """f at one pair of directions in every precision, and its truth."""
     import numpy as np
 
+    from montecarlo_brdf.arithmetic.rung import Rung, rounded, unit
     from montecarlo_brdf.arithmetic.types import exact, ladder
     from montecarlo_brdf.cli._terminal import tell
-    from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 
     components = numbers(text, "at")
     if len(components) != 6 or min(components[2], components[5]) <= 0.0:

@@ -1,14 +1,14 @@
 """A model at many places in one call: compiled, for checks and searches that look at many values.
 
-`Pointwise` is a model with one parameter set on arrays of directions, (n, 3), one unit vector per
-row. For searches every place has parameters of its own: a mean estimated place by place spends its
+Directions are arrays (n, 3), one unit vector per row; every row has parameters of its own (`Rows`),
+or all share one set (`Pointwise`). For searches: a mean estimated place by place spends its
 time between the calls; here one call takes thousands of places, and the same nodes u serve all of
 them, so that differences between places are not noise.
 """
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from montecarlo_brdf.compile.bind import Function, Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
@@ -19,7 +19,6 @@ from montecarlo_brdf.compile.layout import (
     Unpack,
     following,
     numbers_of,
-    pack,
     shape_of,
 )
 from montecarlo_brdf.estimate.quantity import Quantity
@@ -40,6 +39,7 @@ WRITE: Any = hole()
 ROW: Any = hole()
 LINE: Any = hole()
 
+PAIR = 6  # numbers of a pair of directions, or of a direction and its u
 DRAWN = 4  # numbers per draw: x, y, z and the weight, NaN if the sampler returns none
 NODE = 4  # numbers of a node: u[0], u[1], u[4] and its weight
 PLACE = 4  # numbers of a place before its parameters: a direction and what the integrand needs
@@ -48,22 +48,20 @@ TOGETHER = 256  # nodes in each LINE
 
 
 def values(ints: Ints, reals: Reals, out: Out) -> None:
-    """out[j] = FUNCTION(wo_j, wi_j, p); ints = (n, place of the first direction)."""
-    p = PARAMETERS(reals)[0]
+    """out[j] = FUNCTION(wo_j, wi_j, p_j); ints = (rows, place of the first pair, place of the first
+    parameters, numbers from one set to the next: 0 if all share one)."""
     for j in range(ints[0]):
-        at = ints[1] + 6 * j
-        wo = (reals[at], reals[at + 1], reals[at + 2])
-        out[j] = FUNCTION(wo, (reals[at + 3], reals[at + 4], reals[at + 5]), p)
+        p = PARAMETERS(ROW(reals, ints[2] + ints[3] * j))[0]
+        at = ROW(reals, ints[1] + PAIR * j)
+        out[j] = FUNCTION((at[0], at[1], at[2]), (at[3], at[4], at[5]), p)
 
 
 def draws(ints: Ints, reals: Reals, out: Out) -> None:
-    """out[4 j ...] = FUNCTION(wo_j, u_j, p), a drawn direction and its weight."""
-    p = PARAMETERS(reals)[0]
+    """out[4 j ...] = FUNCTION(wo_j, u_j, p_j), a drawn direction and its weight; ints as there."""
     for j in range(ints[0]):
-        at = ints[1] + 6 * j
-        wo = (reals[at], reals[at + 1], reals[at + 2])
-        u = (reals[at + 3], reals[at + 4], reals[at + 5])
-        WRITE(FUNCTION(wo, u, p), out, DRAWN * j)
+        p = PARAMETERS(ROW(reals, ints[2] + ints[3] * j))[0]
+        at = ROW(reals, ints[1] + PAIR * j)
+        WRITE(FUNCTION((at[0], at[1], at[2]), (at[3], at[4], at[5]), p), out, DRAWN * j)
 
 
 def write_direction(w: Sequence[float], out: Out, at: int) -> None:
@@ -74,46 +72,6 @@ def write_direction(w: Sequence[float], out: Out, at: int) -> None:
 def write_weighted(w: Sequence[float], out: Out, at: int) -> None:
     """A sampler that returns (x, y, z, weight)."""
     out[at], out[at + 1], out[at + 2], out[at + 3] = w[0], w[1], w[2], w[3]
-
-
-class Pointwise:
-    """f, sample and pdf of a model with one parameter set, on arrays."""
-
-    def __init__(self, model: Model, p: ParameterSet) -> None:
-        self.model = model.of(p)
-        layout, self._numbers = pack([self.model.prepared(p)], 0)
-        self._unpack = Unpack(layout)
-
-    def f(self, wo: ArrayLike, wi: ArrayLike) -> Array:
-        """f(wo, wi) in 1/sr: (n,) values for (n, 3) directions; wo or wi may be a single one."""
-        return self._run(values, wo, wi, 1, FUNCTION=self.model.f)[:, 0]
-
-    def pdf(self, wo: ArrayLike, wi: ArrayLike) -> Array:
-        """pdf(wo, wi) in 1/sr."""
-        return self._run(values, wo, wi, 1, FUNCTION=self.model.pdf)[:, 0]
-
-    def sample(self, wo: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
-        """Directions (n, 3) drawn for numbers u (n, 3), and their weights, NaN where none is
-        returned."""
-        write = write_weighted if weighted(self.model) else write_direction
-        out = self._run(draws, wo, u, DRAWN, FUNCTION=self.model.sample, WRITE=write)
-        return out[:, :3], out[:, 3]
-
-    def _run(
-        self, template: Function, a: ArrayLike, b: ArrayLike, width: int, **names: object
-    ) -> Array:
-        import numpy as np
-
-        call = kernel(self.model.name, template, PARAMETERS=self._unpack, **names)
-        a, b = np.atleast_2d(a), np.atleast_2d(b)
-        many, before = len(b) if len(a) == 1 else len(a), len(self._numbers)
-        data = np.empty(before + 6 * many)
-        pairs = data[before:].reshape(many, 6)
-        data[:before], pairs[:, :3], pairs[:, 3:] = self._numbers, a, b
-        out = np.full((many, width), np.nan)
-        for k, count in call.pieces(many):
-            call.on([count, before + 6 * k], data, out[k:])
-        return out
 
 
 def means(ints: Ints, reals: Reals, out: Out) -> None:
@@ -137,16 +95,8 @@ def means(ints: Ints, reals: Reals, out: Out) -> None:
             out[j] += total
 
 
-def pairs(ints: Ints, reals: Reals, out: Out) -> None:
-    """out[j] = FUNCTION(wo_j, wi_j, p_j); ints = (pairs, 1, place of the first, numbers of one)."""
-    for j in range(ints[0]):
-        at = ROW(reals, ints[2] + j * ints[3])
-        p = PARAMETERS(at)[0]
-        out[j] = FUNCTION((at[0], at[1], at[2]), (at[3], at[4], at[5]), p)
-
-
 class Rows(NamedTuple):
-    """Parameter sets as rows of numbers, one per place, as a kernel takes them."""
+    """Parameter sets as rows of numbers, one per place or one for all, as a kernel takes them."""
 
     base: ParameterSet
     values: Array  # (n, parameters)
@@ -162,6 +112,11 @@ class Rows(NamedTuple):
         """The parameter set of row k."""
         return self.base._make(map(float, self.values[k]))
 
+    def at(self, index: Array | slice) -> Rows:
+        """Some of the rows, in any order and as often as the index says."""
+        numbers = self.numbers if len(self.numbers) == 1 else self.numbers[index]
+        return self._replace(values=self.values[index], numbers=numbers)
+
 
 def parameter_rows(model: Model, columns: Mapping[str, Any], base: ParameterSet, n: int) -> Rows:
     """n parameter sets: `base` with the columns of n numbers in place of some fields.
@@ -173,35 +128,99 @@ def parameter_rows(model: Model, columns: Mapping[str, Any], base: ParameterSet,
     table = np.tile(np.array(tuple(base), dtype=float), (n, 1)) if base else np.zeros((n, 0))
     for name, values in columns.items():
         table[:, base._fields.index(name)] = values
+    return rows_of(model, base, table)
+
+
+def rows_of(model: Model, base: ParameterSet, table: Array) -> Rows:
+    """The parameter sets of the rows of a table, in the order of the fields of `base`."""
+    import numpy as np
+
     if model.prepare is None:
         return Rows(base, table, shape_of(base), table)
-    sets, which = np.unique(table, axis=0, return_inverse=True)
-    ready = [model.prepared(base._make(map(float, s))) for s in sets]
+    if not base:
+        ready = [model.prepared(base)]
+        return Rows(base, table, shape_of(ready[0]), np.array([list(numbers_of(ready[0]))]))
+    table = np.ascontiguousarray(table)
+    words = table.view(np.dtype((np.void, table.itemsize * table.shape[1]))).ravel()
+    _, first, which = np.unique(words, return_index=True, return_inverse=True)
+    ready = [model.prepared(base._make(map(float, table[k]))) for k in first]
     numbers = np.array([list(numbers_of(r)) for r in ready])
     return Rows(base, table, shape_of(ready[0]), numbers[which.reshape(-1)])
 
 
-def mean_values(model: Model, of: Quantity, nodes: Array, places: Array, sets: Rows) -> Array:
-    """A or R at (n, 4) places: by the model's own sampler with nodes in [0, 1)^3, or in slopes of
-    the half vector where it has none."""
-    own = Sampler.OWN in samplers_of(model, of)
-    mean = integrand(model, of, Sampler.OWN if own else Sampler.SLOPES)
-    names = {"INTEGRAND": mean.template, "LINE": Buffer(TOGETHER), "ROW": Row()}
-    unpack = Unpack(following(sets.shape, places.shape[1]))
-    return _run(kernel(model.name, means, PARAMETERS=unpack, **names), nodes, places, sets)
+def values_of(model: Model, function: Function, wo: ArrayLike, wi: ArrayLike, sets: Rows) -> Array:
+    """f or pdf of a model, in 1/sr: (n,) values for (n, 3) directions, each pair with parameters of
+    its own or all with one set; wo or wi may be a single one."""
+    return _run(model, values, wo, wi, sets, 1, FUNCTION=function)[:, 0]
 
 
-def pair_values(model: Model, wo: Array, wi: Array, sets: Rows) -> Array:
-    """f(wo, wi) for (n, 3) directions, each pair with parameters of its own."""
+def draws_of(model: Model, wo: ArrayLike, u: ArrayLike, sets: Rows) -> tuple[Array, Array]:
+    """Directions (n, 3) drawn for numbers u (n, 3), and their weights, NaN where none is
+    returned."""
+    write = write_weighted if weighted(model) else write_direction
+    out = _run(model, draws, wo, u, sets, DRAWN, FUNCTION=model.sample, WRITE=write)
+    return out[:, :3], out[:, 3]
+
+
+def _run(
+    model: Model, template: Function, a: ArrayLike, b: ArrayLike, sets: Rows, width: int,
+    **names: object,
+) -> Array:  # fmt: skip
     import numpy as np
 
-    places = np.concatenate([wo, wi], axis=1)
+    unpack = Unpack(following(sets.shape, 0))
+    call = kernel(model.name, template, PARAMETERS=unpack, ROW=Row(), **names)
+    a, b = np.atleast_2d(a), np.atleast_2d(b)
+    many, numbers = len(b) if len(a) == 1 else len(a), sets.numbers
+    data = np.empty(PAIR * many + numbers.size)
+    pairs = data[: PAIR * many].reshape(many, PAIR)
+    pairs[:, :3], pairs[:, 3:], data[PAIR * many :] = a, b, numbers.ravel()
+    stride = numbers.shape[1] if len(numbers) > 1 else 0
+    out = np.full((many, width), np.nan)
+    for k, count in call.pieces(many):
+        call.on([count, PAIR * k, PAIR * many + stride * k, stride], data, out[k:])
+    return out
+
+
+class Pointwise:
+    """f, sample and pdf of a model with one parameter set, on arrays."""
+
+    def __init__(self, model: Model, p: ParameterSet) -> None:
+        import numpy as np
+
+        self.model = model.of(p)
+        self.sets = rows_of(self.model, p, np.array([tuple(p)], dtype=float))
+
+    def f(self, wo: ArrayLike, wi: ArrayLike) -> Array:
+        """f(wo, wi) in 1/sr, see `values_of`."""
+        return values_of(self.model, self.model.f, wo, wi, self.sets)
+
+    def pdf(self, wo: ArrayLike, wi: ArrayLike) -> Array:
+        """pdf(wo, wi) in 1/sr, see `values_of`; of a model that has one."""
+        return values_of(self.model, cast(Function, self.model.pdf), wo, wi, self.sets)
+
+    def sample(self, wo: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
+        """Directions and weights, see `draws_of`."""
+        return draws_of(self.model, wo, u, self.sets)
+
+
+def seeing(model: Model, of: Quantity) -> Sampler:
+    """The model's own sampler, or slopes of half vectors where it has none."""
+    return Sampler.OWN if Sampler.OWN in samplers_of(model, of) else Sampler.SLOPES
+
+
+def mean_values(
+    model: Model, of: Quantity, by: Sampler, nodes: Array, places: Array, sets: Rows
+) -> Array:
+    """A, R or int pdf at (n, 4) places: nodes are numbers in [0, 1)^3 of the model's own sampler,
+    or (slope, azimuth, 0) of the half vector, each with its weight."""
+    mean = integrand(model, of, by)
+    names = {"INTEGRAND": mean.template, "LINE": Buffer(TOGETHER), "ROW": Row()}
     unpack = Unpack(following(sets.shape, places.shape[1]))
-    call = kernel(model.name, pairs, PARAMETERS=unpack, FUNCTION=model.f, ROW=Row())
-    return _run(call, np.zeros((0, NODE)), places, sets)
+    return _means(kernel(model.name, means, PARAMETERS=unpack, **names), nodes, places, sets)
 
 
-def _run(call: Kernel, nodes: Array, places: Array, sets: Rows) -> Array:
+def _means(call: Kernel, nodes: Array, places: Array, sets: Rows) -> Array:
     import numpy as np
 
     table = np.concatenate([places, sets.numbers], axis=1)

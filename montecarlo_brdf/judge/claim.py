@@ -201,6 +201,8 @@ class MeanClaim:
     fallback: Callable[[int], Measurement] | None = None
     #: what is expected by another quadrature, for a seed; None where that resolves nothing
     afresh: Callable[[int], Reference | None] | None = None
+    #: whether it is about f alone: the model's own sampler may hold it, but never refute it
+    of_f: bool = False
 
 
 Claim = MeanClaim | ExactClaim | FitClaim | SlopeClaim | Limit | Skip

@@ -65,6 +65,8 @@ def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> O
         Opinion(m, m.half_width(each), None if m.unfit else _verdict(claim, m, best, each))
         for m in measurements
     ]
+    if claim.of_f:
+        opinions = [_contradicting(o) for o in opinions]
     if claim.expected is None and sum(o.verdict == Verdict.PASS for o in opinions) < 2:
         # one estimator alone agrees with itself
         opinions = changed(opinions, lambda o: o.verdict == Verdict.PASS, Verdict.INCONCLUSIVE)
@@ -75,6 +77,16 @@ def judged(claim: MeanClaim, measurements: list[Measurement], level: float) -> O
             opinions, lambda o: o.measurement is not best and o.verdict not in quiet, Verdict.PASS
         )
     return opinions
+
+
+def _contradicting(o: Opinion) -> Opinion:
+    """The opinion, not to be believed where the model's own draws refute f: their weights are
+    divided by a pdf that may not be theirs."""
+    if o.verdict != Verdict.FAIL or o.measurement.estimator != Sampler.OWN:
+        return o
+    unfit = "draws by own sampling refute f, or their pdf: see `pdf`"
+    useless = o.measurement._replace(unfit=unfit, needs=math.inf)
+    return o._replace(verdict=None, measurement=useless)
 
 
 def changed(opinions: Opinions, which: Callable[[Opinion], bool], to: Verdict) -> Opinions:

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from montecarlo_brdf.arithmetic.rung import Rung, rounded, unit
 from montecarlo_brdf.arithmetic.types import Arithmetic, Array
 from montecarlo_brdf.stability.designed import Points
-from montecarlo_brdf.stability.ladder import Rung, rounded, unit
 
 #: Darker than this, per steradian, nobody sees the error (f0 = 0 leaves (1 - h.v)^5 = 1e-40).
 BLACK = 1e-20

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from montecarlo_brdf.arithmetic.rung import Rung, rounded
 from montecarlo_brdf.arithmetic.types import Arithmetic, Array
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.stability import designed
-from montecarlo_brdf.stability.ladder import Rung, rounded
 
 #: A direction may be this many roundings longer or shorter than 1: two rotations' worth.
 LENGTH_ROUNDINGS = 32.0

@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from montecarlo_brdf.arithmetic.rung import Rung, rounded
 from montecarlo_brdf.arithmetic.types import Arithmetic, Array, exact, wider
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.stability import designed, sampling
 from montecarlo_brdf.stability.designed import Points
 from montecarlo_brdf.stability.errors import Errors, errors
-from montecarlo_brdf.stability.ladder import Rung, rounded
 
 #: Points per parameter set that are compared with 50 digits too: the worst, and every so many.
 EXACT_WORST, EXACT_EVERY = 4, 499

@@ -123,10 +123,8 @@ def claims(case: Case, other: Model, q: NamedTuple) -> Iterator[ExactClaim]:
             Bound.AT_MOST,
             Reference(0.0, 0.0, Kind.OTHER_MODEL, other.name),
             case.tolerated(equality.TOLERANCE),
-            functools.partial(equality.worst, case, other)
-            if case.free
-            else functools.partial(
-                equality.difference, case, one, other, two, case.random("compare")
+            functools.partial(
+                equality.difference, case._replace(p=one), other, q=None if case.free else two
             ),
         )
         for theta in case.theta_o_deg:

@@ -9,10 +9,11 @@ import pytest
 from columns import in_precision
 
 from montecarlo_brdf import loading
+from montecarlo_brdf.arithmetic import rung as ladder
 from montecarlo_brdf.arithmetic import types as arithmetic
+from montecarlo_brdf.arithmetic.rung import Rung
 from montecarlo_brdf.errors import ModelError
-from montecarlo_brdf.stability import designed, ladder
-from montecarlo_brdf.stability.ladder import Rung
+from montecarlo_brdf.stability import designed
 
 SINGLE, DOUBLE, EXACT = (
     arithmetic.precision("float32"),

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from columns import in_precision
 
+from montecarlo_brdf.arithmetic import rung as ladder
 from montecarlo_brdf.arithmetic import types as arithmetic
-from montecarlo_brdf.stability import ladder
 from montecarlo_brdf.stability.specimens import (
     beckmann_by_angle,
     biased_ggx,
