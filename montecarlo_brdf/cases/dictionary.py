@@ -21,7 +21,7 @@ from montecarlo_brdf.cases.directions import HIGHEST_COSINE, MIRROR
 from montecarlo_brdf.cases.points import Points, direction, even
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array
+    from montecarlo_brdf.cases.directions import Array, Index
 
 APART = (0.0, 1e-9, 1e-4, -1e-4, 5e-4, 1e-2)  # relative distances of nearly equal parameters
 WHOLE = 16  # whole numbers of a range, from its low end
@@ -146,11 +146,11 @@ def _cosines(c: float) -> Iterator[float]:
 
 
 def _put(
-    case: Case, at: Points, chosen: Sequence[Special], which: Array, rng: np.random.Generator
+    case: Case, at: Points, chosen: Sequence[Special], which: Index, rng: np.random.Generator
 ) -> None:
     """Give points the special values of the places `which` (-1: none)."""
     kinds = np.array([*(special.place.name for special in chosen), ""])
-    numbers = np.array([special[1:] for special in chosen] or [(0.0, 0.0, 0.0)])
+    numbers = np.array([special[1:] for special in chosen], dtype=float).reshape(-1, 3)
     for place, put in PUT.items():
         (rows,) = np.nonzero(kinds[which] == place.name)
         if len(rows):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,8 +18,9 @@ if TYPE_CHECKING:
 
     #: f or pdf of (n, 3) wo and wi
     At = Callable[[Array, Array], Array]
+    Index = NDArray[np.integer[Any]]
     #: the same with the parameters of the rows of an index
-    OfRows = Callable[[Array, Array, Array], Array]
+    OfRows = Callable[[Index, Array, Array], Array]
 
 LAST = math.nextafter(0.5 * math.pi, 0.0)  # 90 degrees less an ulp: cos = 2.8e-16
 #: polar angles in radians: normal, next to it, ordinary, grazing, the last double before 90 degrees

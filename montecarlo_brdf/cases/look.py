@@ -56,7 +56,7 @@ class Look:
 
     def source(self, k: int) -> str:
         """What led to a point, if that is worth telling."""
-        return self.points.labels[self.points.label[k]]
+        return self.points.labels[int(self.points.label[k])]
 
 
 def _sources(case: Case) -> Iterator[Points]:

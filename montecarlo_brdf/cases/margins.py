@@ -26,7 +26,7 @@ from montecarlo_brdf.cases.points import Points, direction, even, joined
 from montecarlo_brdf.estimate.places import rows_of
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array
+    from montecarlo_brdf.cases.directions import Array, Flags, Index
 
 OPERATIONS = 60_000  # of arrays, per function: what searching in one may take
 FIRST = 384  # points of the first look
@@ -190,7 +190,7 @@ class Crossings:
         for k, one in enumerate(self.axes):
             for value, end in zip(values, (near, far), strict=True):
                 value[axis == k] = one.of(at)[end[axis == k]]
-        tried = Brackets(site, axis, at.at(near), *values, sign)
+        tried = Brackets(site, axis, at.at(near), values[0], values[1], sign)
         if not len(trials):
             return None
         there = self.margin_of(tried, sites, self.moved(tried, tried.far))
@@ -250,20 +250,20 @@ class Crossings:
 class Brackets(NamedTuple):
     """Points, and for each a number of it between whose values a site turns."""
 
-    site: Array  # (n,) places in a list of sites
-    axis: Array  # places in the axes
+    site: Index  # (n,) places in a list of sites
+    axis: Index  # places in the axes
     near: Points
     low: Array  # what the number is there
     far: Array  # what it is on the other side
     sign: Array  # of the margin at `near`
 
-    def at(self, index: Array) -> Brackets:
+    def at(self, index: Index) -> Brackets:
         """Some of them."""
-        site, axis, near, *rest = self
-        return Brackets(site[index], axis[index], near.at(index), *(part[index] for part in rest))
+        rest = self.low[index], self.far[index], self.sign[index]
+        return Brackets(self.site[index], self.axis[index], self.near.at(index), *rest)
 
 
-def _first(b: Brackets, turned: Array) -> Array:
+def _first(b: Brackets, turned: Flags) -> Index:
     """The first brackets of each site that turn it, not all of them along one number."""
     kept: list[int] = []
     for k in np.flatnonzero(turned):

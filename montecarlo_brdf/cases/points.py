@@ -21,7 +21,7 @@ from montecarlo_brdf.sampling.points import stream
 from montecarlo_brdf.sampling.spread import spread
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array
+    from montecarlo_brdf.cases.directions import Array, Index
 
 EVEN = 1 << 16  # points of the even set
 FEWEST = 1 << 10  # at any effort
@@ -44,9 +44,10 @@ class Points(NamedTuple):
 
     def at(self, index: Any) -> Points:
         """Some of them."""
-        return Points(*(column[index] for column in self[:5]), self.labels)
+        table, wo, wi, u, label, labels = self
+        return Points(table[index], wo[index], wi[index], u[index], label[index], labels)
 
-    def labelled(self, label: Array, labels: Sequence[str]) -> Points:
+    def labelled(self, label: Index, labels: Sequence[str]) -> Points:
         """The same points, found otherwise."""
         return self._replace(label=label, labels=tuple(labels))
 
@@ -55,8 +56,8 @@ def joined(parts: Sequence[Points]) -> Points:
     """All points of several sets."""
     first = np.cumsum([0, *(len(part.labels) for part in parts)])
     labels = np.concatenate([part.label + k for part, k in zip(parts, first, strict=False)])
-    columns = (np.concatenate(column) for column in zip(*(part[:4] for part in parts), strict=True))
-    return Points(*columns, labels, tuple(text for part in parts for text in part.labels))
+    table, wo, wi, u = (np.concatenate([part[k] for part in parts]) for k in range(4))
+    return Points(table, wo, wi, u, labels, tuple(text for part in parts for text in part.labels))
 
 
 def even(case: Case, n: int, *name: object, prepared: int = PREPARED) -> Points:

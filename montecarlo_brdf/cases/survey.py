@@ -77,7 +77,7 @@ class Survey:
 
     def source(self, k: int) -> str:
         """What led to a place, if that is worth telling."""
-        return self.points.labels[self.points.label[k]]
+        return self.points.labels[int(self.points.label[k])]
 
 
 def reflected_of(nodes: Nodes) -> Array:

@@ -10,7 +10,7 @@ from montecarlo_brdf.cases import directions
 from montecarlo_brdf.cases.look import Look
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array, Pairs
+    from montecarlo_brdf.cases.directions import Array, Index, Pairs
 
 #: values below this share of the largest are rounding
 NEGLIGIBLE = 1e-25
@@ -35,7 +35,7 @@ def worst(
     deviation = relative(at.f, other, share)
     if deviation.max(initial=0.0) > tolerance:
 
-        def f(index: Array, wo: Array, wi: Array) -> Array:
+        def f(index: Index, wo: Array, wi: Array) -> Array:
             return at.values(at.model.f, wo, wi, index)
 
         places = (at.points.wo, at.points.wi), pair

@@ -33,7 +33,7 @@ from montecarlo_brdf.statistics import Moments, estimate, hidden_error
 from montecarlo_brdf.vectors import Vec
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array, Flags
+    from montecarlo_brdf.cases.directions import Array, Flags, Index
 
 NAME = "pdf"  # whose streams these are
 #: of the mass; the edge of the rejected region limits how fast the rejected fraction converges
@@ -246,7 +246,7 @@ def weight(case: Case) -> Exact:
     (rows,) = np.nonzero(np.isfinite(weights) & (w[:, 2] > 0.0))
     wo, wi, weights = at.points.wo[rows], w[rows], weights[rows]
 
-    def due(index: Array, a: Array, b: Array) -> Array:
+    def due(index: Index, a: Array, b: Array) -> Array:
         some = rows[index]
         f, pdf = at.values(at.model.f, a, b, some), at.values(_pdf(at.model), a, b, some)
         ratio: Array = f * b[:, 2] / np.where(pdf > 0.0, pdf, np.nan)
@@ -295,7 +295,7 @@ def heaviest(at: Survey) -> list[int]:
     return [int(k) for k in index]
 
 
-def _masses(at: Survey, index: Array, cells: tuple[int, int], draws: int) -> Array:
+def _masses(at: Survey, index: Index, cells: tuple[int, int], draws: int) -> Array:
     groups, numbers = at.at.at(index), net(draws, 5)
     x, b, weight = grid(*cells)
     nodes = np.stack([x, b, np.zeros(len(x)), weight], axis=1)

@@ -31,7 +31,7 @@ from montecarlo_brdf.sampling.spread import net
 from montecarlo_brdf.statistics import quantile
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array
+    from montecarlo_brdf.cases.directions import Array, Flags
 
 NAME = "moments"
 NODES, REPLICATES = 512, 8  # of a place of a survey
@@ -73,7 +73,7 @@ def functions(w: Array) -> Iterator[Array]:
     """The values at directions (..., 3) of what NAMES says."""
     x, y, z = w[..., 0], w[..., 1], w[..., 2]
     yield np.ones_like(z)
-    yield from (z, z * z, (z > 0.2) * 1.0, (z > 0.5) * 1.0)
+    yield from (z, z * z, np.where(z > 0.2, 1.0, 0.0), np.where(z > 0.5, 1.0, 0.0))
     across = np.hypot(x, y)
     turn = np.where(across > 0.0, (x + 1j * y) / np.where(across > 0.0, across, 1.0), 1.0)
     power = turn
@@ -87,7 +87,7 @@ class Draws(NamedTuple):
     """K draws for each of n groups."""
 
     w: Array  # (n, K, 3)
-    up: Array  # (n, K): whether they are above the horizon
+    up: Flags  # (n, K): whether they are above the horizon
     weight: Array  # f cos/pdf, or what the sampler says of it
     unseen: Array  # (n,): the mean of weights that the mixture hardly hits
 

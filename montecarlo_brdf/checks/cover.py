@@ -21,7 +21,7 @@ import numpy as np
 
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.cases.survey import Survey, sure, survey
+from montecarlo_brdf.cases.survey import Survey, hardly, sure, survey
 from montecarlo_brdf.checks import _mixture
 from montecarlo_brdf.checks._moments import Moment, differences, measured, resolvable
 from montecarlo_brdf.estimate.samplers import weighted
@@ -45,7 +45,7 @@ def claims(case: Case) -> Iterator[Claim]:
         return
     at = survey(case)
     if case.model.pdf is not None:
-        yield _undrawn(*at.place(_mixture.worst(at, at.undrawn, _mixture.hardly)))
+        yield _undrawn(*at.place(_mixture.worst(at, at.undrawn, hardly)))
     for moment, k in _worst_moments(at):
         yield _off(*at.place(k), moment)
 

@@ -24,7 +24,7 @@ from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.model import Property
 
 if TYPE_CHECKING:
-    from montecarlo_brdf.cases.directions import Array
+    from montecarlo_brdf.cases.directions import Array, Index
 
 NAME = "positivity"
 QUESTION = "finite and >= 0 everywhere?"
@@ -79,14 +79,14 @@ def _smallest(at: Look) -> Exact:
     return Exact(float(value[j]), 0.0, at.where(k), len(at), hint=hint)
 
 
-def _scale(at: Look, low: Array) -> Array:
+def _scale(at: Look, low: Index) -> Array:
     """The largest |f| between the polar angles of each point, and at least the median of |f|."""
     rng = at.case.random(NAME, "median")
     wo, wi = directions.random_pairs(rng, USUAL)
     many, each = np.repeat(low, USUAL), (len(low), 1)
     f = np.abs(at.values(at.model.f, np.tile(wo, each), np.tile(wi, each), many))
     f = np.where(np.isfinite(f) & (f > 0.0), f, np.nan).reshape(len(low), USUAL)
-    dark = np.isnan(f).all(axis=1)
+    dark = np.asarray(np.isnan(f).all(axis=1))
     median = np.where(dark, 1.0, np.nanmedian(np.where(dark[:, None], 1.0, f), axis=1))
     there = at.points.wo[low], at.points.wi[low]
     found = directions.around(lambda a, b: at.values(at.model.f, a, b, low), *there)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
+    Flags = NDArray[np.bool_]
+    Index = NDArray[np.integer[Any]]
 
 #: chords between which distances from a centre are spread by their logarithm
 NEAREST, FARTHEST = 1e-6, 2.0
@@ -44,7 +46,7 @@ class Groups(NamedTuple):
     sets: Rows
     wo: Array  # (n, 3)
 
-    def at(self, index: Array | slice) -> Groups:
+    def at(self, index: Index | slice) -> Groups:
         """Some of them."""
         return Groups(self.sets.at(index), self.wo[index])
 
@@ -56,7 +58,7 @@ class Nodes(NamedTuple):
     f: Array
     pdf: Array  # 0 without one
     inverse: Array  # 1/density of the mixture, 0 below the horizon
-    own: Array  # whether it is the model's own draw
+    own: Flags  # whether it is the model's own draw
     weight: Array  # that this draw came with, NaN without one
     u: Array  # (K, 3)
     replicates: int
@@ -113,7 +115,8 @@ def nodes_of(
     up = np.isfinite(w).all(axis=2) & (w[..., 2] > 0.0)
     w = np.where(up[..., None], w, (0.0, 0.0, 1.0))
     f, pdf = (np.where(up, x, 0.0) for x in functions_at(model, at, w, reverse))
-    density = shares[0] / each * pdf + blind_density(centre, w, shares[1:] / each)
+    blind = blind_density(centre, w, (shares[1] / each, shares[2] / each))
+    density = shares[0] / each * pdf + blind
     inverse = np.where(up & (density > 0.0), 1.0 / np.where(density > 0.0, density, 1.0), 0.0)
     return Nodes(w, f, pdf, inverse, np.broadcast_to(kinds == 0, up.shape), weight, u, replicates)
 
@@ -141,15 +144,15 @@ def blind_density(centre: Array, w: Array, shares: Sequence[float] = (0.5, 0.5))
     return found
 
 
-def _shares(each: int, drawn: bool) -> Array:
+def _shares(each: int, drawn: bool) -> Index:
     """How many of the nodes of a replicate are own draws, cosine-weighted, around a centre."""
     own = each // 2 if drawn else 0
     near = 2 * (each - own) // 3
-    found: Array = np.array([own, each - own - near, near])
+    found: Index = np.array([own, each - own - near, near])
     return found
 
 
-def _numbers(shares: Array, replicates: int, key: int) -> Array:
+def _numbers(shares: Index, replicates: int, key: int) -> Array:
     """(K, 3): a net of each kind in each replicate, shifted at random: a net cut into kinds at
     random has several times the error."""
     rng, parts = np.random.default_rng(key), []
@@ -229,7 +232,8 @@ def peaks(model: Model, at: Groups, reverse: bool = False) -> Array:
     height = _heights(model, at, best, reverse)
     height[:, -2:] *= 0.9
     top = np.argmax(height, axis=1)
-    place, highest = best[np.arange(n), top], height[np.arange(n), top]
+    place: Array = best[np.arange(n), top]
+    highest = height[np.arange(n), top]
     step = np.full(n, STEP)
     for k in range(ROUNDS):
         around_it = _hexagon(place, step, HEXAGON + k)
@@ -242,10 +246,10 @@ def peaks(model: Model, at: Groups, reverse: bool = False) -> Array:
     return place
 
 
-def _hexagon(place: Array, step: Array, angle: Array) -> Array:
+def _hexagon(place: Array, step: Array, angle: Any) -> Array:
     """(n, 6, 3): unit vectors around each place."""
     one, other = frame(place)
-    away = np.cos(angle)[:, None] * one[:, None] + np.sin(angle)[:, None] * other[:, None]
+    away: Array = np.cos(angle)[:, None] * one[:, None] + np.sin(angle)[:, None] * other[:, None]
     found = place[:, None] + step[:, None, None] * away
     unit: Array = found / np.sqrt(np.sum(found * found, axis=2))[..., None]
     return unit

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]
+    Index = NDArray[np.integer[Any]]
 
 PARAMETERS: Any = hole()
 INTEGRAND: Any = hole()
@@ -112,7 +113,7 @@ class Rows(NamedTuple):
         """The parameter set of row k."""
         return self.base._make(map(float, self.values[k]))
 
-    def at(self, index: Array | slice) -> Rows:
+    def at(self, index: Index | slice) -> Rows:
         """Some of the rows, in any order and as often as the index says."""
         numbers = self.numbers if len(self.numbers) == 1 else self.numbers[index]
         return self._replace(values=self.values[index], numbers=numbers)
