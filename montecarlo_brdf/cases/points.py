@@ -117,6 +117,7 @@ def edges(case: Case) -> Points:
     """Edge angles against each other (directions.edge_pairs), for the parameters asked about, some
     inside, and each at the ends of its range; with numbers u at their ends."""
     sets = [*parameters.sets(case, 2), *parameters.extremes(case)]
+    sets = sets[: case.budget(len(sets), 2)]
     wo, wi = edge_pairs()
     n, m = len(sets), len(wo)
     table = np.repeat(np.array([tuple(p) for p in sets]).reshape(n, -1), m, axis=0)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from montecarlo_brdf.cases.case import Case, Parameters
-from montecarlo_brdf.cases.survey import Law, Survey, hardly, mass_of, reflected_of, sure
+from montecarlo_brdf.cases.survey import Law, Survey, hardly, reflected_of, sure
 from montecarlo_brdf.estimate.mixture import Groups, centres, estimated, taken
 from montecarlo_brdf.estimate.places import rows_of
 from montecarlo_brdf.estimate.plan import Plan
@@ -64,12 +64,6 @@ def reflected(
         unfit = f"f grows like mu^-{exponent:.2f}: its error bar can not be trusted"
     found = _estimated(model, one, fixed, plan, reflected_of, own=False, reverse=reverse)
     return found._replace(unfit=unfit)
-
-
-def mass(case: Case, theta: float, plan: Plan) -> Measurement:
-    """int pdf + the share of draws below the horizon."""
-    sized = plan.samples, plan.replicates, plan.seed
-    return _measured(case.model, case.one, case.wo(theta), sized, mass_of, True, False)
 
 
 def undrawn(case: Case, theta: float, plan: Plan) -> list[Measurement]:

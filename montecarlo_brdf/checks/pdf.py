@@ -44,7 +44,6 @@ if TYPE_CHECKING:
 
 #: times the samples, for the rejected draws: an edge in the integrand, but a cheap one
 EDGE = (4, 32)
-LAST = 1 << 21  # nodes of the mixture where nothing else decides
 GRAZING = 86.0  # degrees: beyond that samplers tend to have a way of their own
 
 NAME = "pdf"

@@ -1,7 +1,7 @@
 """Reciprocity: f(wo, wi) = f(wi, wo)? (Helmholtz; without it bidirectional methods are wrong.)
 
-The worst relative difference over the points that all laws are asked at (cases.points). It cannot
-see: a violation between the pairs looked at, or below what moving the directions by some ulps does.
+The worst relative difference over the points that all laws are asked at (cases.points).
+It cannot see: a violation between these, or below what moving the directions by some ulps does.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ def test_a_run_of_little_effort_says_so_and_looks_at_less(cli: Command) -> None:
     assert whole.verdict == little.verdict == "pass"
     assert "effort" not in whole.settings and little.settings["effort"] == 0.01
     points = [sum(f.samples or 0 for r in x.results for f in r.findings) for x in (little, whole)]
-    assert 20 * points[0] < points[1]
+    assert 10 * points[0] < points[1]  # where the code turns is asked at any effort
     assert cli("run", "--model", "ggx", "--check", "isotropy", "--effort", 0.01).code == 0
 
 
