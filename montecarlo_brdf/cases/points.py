@@ -88,8 +88,8 @@ def _towards_lobes(case: Case, at: Points, s: Array, t: Array) -> Points:
     ulps = ULPS[(1e6 * at.u[exact]).astype(int) % 5] * (t[exact, None] < 0.5)
     wi[exact] = centre[exact] + ulps
     own = (kind < 5) if case.model.sample else np.zeros(len(kind), dtype=bool)
-    sets = rows_of(case.model, case.one, at.table[own])
     if own.any():
+        sets = rows_of(case.model, case.one, at.table[own])
         wi[own] = draws_of(case.model, at.wo[own], at.u[own], sets)[0]
     above = np.isfinite(wi).all(axis=1) & (wi[:, 2] > HIGHEST_COSINE)
     return at._replace(wi=np.where(above[:, None], wi, at.wi))
