@@ -1,8 +1,7 @@
 """Lambert and a Phong lobe; the diffuse draws go to the mirror's side only, as the pdf says, and
 no draw lies on the viewer's side but what the lobe throws there.
 
-suite: slow
-caught by: sampling
+caught by: cover
 cause: none
 """
 

@@ -2,7 +2,7 @@
 two, f has the light through the middle too.
 
 suite: slow
-caught by: sampling
+caught by: cover
 cause: none
 """
 

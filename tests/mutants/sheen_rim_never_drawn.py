@@ -2,7 +2,7 @@
 that are too large, and its pdf agrees.
 
 suite: slow
-caught by: sampling
+caught by: cover
 cause: grazing
 """
 
