@@ -270,10 +270,11 @@ class Mesh:
             if not error > target * abs(self.value):
                 return rest, error
         most = ROUGHER * target * abs(self.value)
-        if not error > most:
+        if not error > most or not math.isfinite(error) or self.value == 0.0:
             return rest, error
-        goal = SPARE * most / width  # spreads are known from few points
-        strata = _strata(left.std(axis=0, ddof=1), goal, MOST_POINTS / many)
+        # relative, as squares of large or small values are no numbers; spreads are known from few
+        goal, spread = SPARE * ROUGHER * target / width, (left / self.value).std(axis=0, ddof=1)
+        strata = _strata(spread, goal, MOST_POINTS / many)
         return _interval(self._left(rng, many, strata), width)
 
     def _left(self, rng: np.random.Generator, many: int, strata: Places) -> Array:
@@ -298,7 +299,8 @@ class Mesh:
 def _interval(left: Array, width: float) -> tuple[float, float]:
     """The mean of estimates that are sums over cells, and half the width of its interval."""
     sums = left.sum(axis=1)
-    return float(sums.mean()), width * float(sums.std(ddof=1))
+    size = float(np.abs(sums).max()) or 1.0  # squares of large or small values are no numbers
+    return float(sums.mean()), width * size * float((sums / size).std(ddof=1))
 
 
 def _strata(spread: Array, error: float, points: float) -> Places:

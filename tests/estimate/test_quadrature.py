@@ -86,3 +86,24 @@ def test_the_error_holds_the_truth(name: str) -> None:
     found = [integrate(function, chart, seed=seed) for seed in range(8)]
     assert all(abs(value - truth) <= error + 1e-12 * truth for value, error in found)
     assert max(error for _, error in found) < 3e-5 * truth
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1e160, math.inf, math.nan])
+def test_values_whose_squares_are_no_numbers(scale: float) -> None:
+    """With steps, for which spreads are looked at cell by cell."""
+
+    def step(w: np.ndarray) -> np.ndarray:
+        return scale * (w[:, 0] > 0.1)
+
+    value, error = integrate(step, Coordinates(UP))
+    same = integrate(lambda w: 1.0 * (w[:, 0] > 0.1), Coordinates(UP))
+    if math.isfinite(scale):
+        assert value / scale == pytest.approx(same.value) and error < 1e-4 * value
+    else:
+        assert error == math.inf
+
+
+def test_an_integral_that_is_zero() -> None:
+    """Of an odd step, of which no cell holds half."""
+    value, error = integrate(lambda w: np.sign(w[:, 0] + 0.3 * w[:, 1]), Coordinates(UP))
+    assert abs(value) <= error < 0.1
