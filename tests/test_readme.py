@@ -133,7 +133,8 @@ def test_the_worked_example_of_contributing_is_a_model(
     names: dict[str, Any] = {}
     exec(reference, names)
     truth = names["albedo"](0.5, ks=0.7).value / 0.7
-    path.write_text(f"{model}\n\ndef albedo(cos_theta_o, p):\n    return {truth} * p.ks\n")
+    known = f"def albedo(cos_theta_o, p):\n    return {truth / 0.5} * cos_theta_o * p.ks\n"
+    path.write_text(f"{model}\n\n{known}")
     quick = ("furnace", "--model", path, "--theta-o", 60, "-p", "ks=0.7")
     assert cli(*quick).code == 0
     path.write_text(path.read_text().replace("1.5", "1.6"))

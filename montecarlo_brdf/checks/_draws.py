@@ -276,7 +276,7 @@ def _weight_hint(weights: Array, expected: Array, wo: Array, wi: Array) -> str:
 def deficits(at: Survey) -> Array:
     """(places, replicates) of the mean of (1 - pdf J)+, see `deficit`; only if u[2] changes
     nothing."""
-    size = at.case.budget(DRAWS_EACH, REPLICATES_EACH)
+    size = REPLICATES_EACH * at.case.budget(DRAWS_EACH // REPLICATES_EACH)
     many = np.repeat(np.arange(len(at.points.wo)), size)
     u = np.tile(_inner(at.case.random(NAME, "survey"), size), (len(at.points.wo), 1))
     ratio = _ratios(at.model, at.points.wo[many], u, at.at.sets.at(many))[0]

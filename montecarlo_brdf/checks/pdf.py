@@ -31,7 +31,16 @@ from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import integrand, weighted
 from montecarlo_brdf.estimate.trust import Measurement
-from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, MeanClaim, Reference, Skip
+from montecarlo_brdf.judge.claim import (
+    Claim,
+    Exact,
+    ExactClaim,
+    Kind,
+    Limit,
+    MeanClaim,
+    Reference,
+    Skip,
+)
 from montecarlo_brdf.judge.decide import LEVEL
 from montecarlo_brdf.judge.finding import Bound
 from montecarlo_brdf.judge.mean import FRESH
@@ -81,9 +90,13 @@ def claims(case: Case) -> Iterator[Claim]:
 
 
 def _weights(case: Case, chosen: bool) -> Claim:
-    """Where draws choose among lobes a weight may be right on average alone."""
+    """Where draws choose among lobes a weight may be right on average alone: that is told."""
     if chosen:
-        return Skip("|weight/(f cos/pdf) - 1|", "the sampler chooses among lobes: see `cover`")
+        found = _draws.weight(case)
+        off = "not f cos/pdf draw by draw, as of one lobe of several: on average, see `cover`"
+        note = off if found.value > _draws.UNIT_TOLERANCE else None
+        quantity = "|weight/(f cos/pdf) - 1|"
+        return Limit(quantity, {}, found.value, found.points, "exact", note=note)
     return _claim(case, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, _draws.weight)
 
 

@@ -50,6 +50,6 @@ def test_a_value_that_is_no_number_fails() -> None:
 
 
 def test_other_models_are_not_asked() -> None:
-    assert {*checks.names()} - {*checks.asked(mb.load("lambert"))} == {"precision"}
+    assert {*checks.names()} - {*checks.asked(mb.load("lambert"))} == {"coverage", "precision"}
     (only,) = mb.run(mb.load("lambert"), names=["precision"]).results
     assert [f.verdict for f in only.findings] == [Verdict.SKIPPED]

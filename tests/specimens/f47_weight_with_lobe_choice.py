@@ -4,7 +4,7 @@ import math
 
 from montecarlo_brdf.sampling.warps import random_hemisphere, random_hemisphere_cosine
 
-found_by = ("run", "pdf")
+found_by = ("run", "cover")
 
 
 def f(wo, wi, p):
@@ -16,8 +16,8 @@ def pdf(wo, wi, p):
 
 
 def sample(wo, u, p):
-    if u[2] < 0.5:
+    if u[2] < 0.5:  # half of f by either lobe
         w = random_hemisphere(u[0], u[1])
-        return w[0], w[1], w[2], 1.6 * w[2]
+        return w[0], w[1], w[2], 0.8 * w[2]
     w = random_hemisphere_cosine(u[0], u[1])
-    return w[0], w[1], w[2], 0.8
+    return w[0], w[1], w[2], 0.4
