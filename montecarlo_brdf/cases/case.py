@@ -88,8 +88,8 @@ def searched(model: Model, fixed: Mapping[str, object]) -> tuple[str, ...]:
 
 def search_range(model: Model, name: str) -> tuple[float, float] | None:
     """The range of a parameter over the sets the model is verified for, else its whole domain if
-    that has ends."""
-    if model.verified:
+    that has ends. Sets that say the same again say nothing of a range."""
+    if len(model.verified) == 1 or len(set(model.verified)) > 1:
         values = [float(getattr(p, name)) for p in model.verified if hasattr(p, name)]
         return (min(values), max(values)) if values and min(values) < max(values) else None
     ends = model.domain.get(name)

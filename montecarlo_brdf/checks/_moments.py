@@ -37,6 +37,8 @@ NAME = "moments"
 NODES, REPLICATES = 512, 8  # of a place of a survey
 MOST = 1 << 20  # of an estimate
 FINE = 64  # its replicates: Student's t of 63 degrees is half that of 15
+FIRST = 1 << 14  # draws that tell whether it would decide
+MARGIN = 0.5  # of the tolerance, that it would do so
 LEVEL = 1e-11  # at which what can not be resolved is passed over
 UNSEEN = 1e-4  # of light that the mixture hardly hits: it can say nothing then
 HARMONICS = 8
@@ -175,9 +177,10 @@ def measured(case: Case, theta: float, moment: Moment, plan: Plan) -> list[Measu
     return [Measurement(NAME, estimated(found[moment.kind][0, :, 0], size), unfit)]
 
 
-def resolvable(off: Array, tolerance: float) -> Array:
-    """Whether the last look would resolve a tolerance, for differences (n, replicates) of a survey:
-    an error falls like the root of the draws at least."""
-    error = off.std(axis=1, ddof=1) / math.sqrt(off.shape[1])
-    found: Array = error * math.sqrt(NODES / MOST) * quantile(LEVEL, FINE - 1) <= tolerance
-    return found
+def resolvable(case: Case, theta: float, moment: Moment, tolerance: float) -> bool:
+    """Whether the last look would decide a difference: it is off already, or its error, falling
+    like the root of the draws, would be within a tolerance."""
+    (first,) = measured(case, theta, moment, Plan(samples=FIRST, seed=case.seed))
+    e, t = first.estimate, quantile(LEVEL, FINE - 1)
+    off = abs(e.mean) - t * e.stderr > tolerance
+    return not first.unfit and (off or t * e.stderr * math.sqrt(FIRST / MOST) <= MARGIN * tolerance)

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 NAME = "cover"
 QUESTION = "does the sampler draw all that f reflects?"
 PROPERTY = Property.PDF
+CANDIDATES = 12  # that are looked at for one that draws can decide
 TOLERANCE = 1e-2  # of light: what the sampler may leave out, and by how much a mean may be off
 
 
@@ -66,10 +67,13 @@ def _undrawn(case: Case, theta: float) -> Claim:
 def _worst_moments(at: Survey) -> Iterator[tuple[Moment, int]]:
     """The moment and the place that are farthest off, of draws and of weighted draws."""
     for kind, off in differences(at).items():
-        columns = [off[:, :, m] for m in range(off.shape[2])]
-        rows = [np.where(resolvable(c, TOLERANCE), sure(c), -np.inf) for c in columns]
-        m, k = np.unravel_index(int(np.argmax(rows)), (len(rows), len(off)))
-        yield Moment(kind, int(m)), int(at.some[k])
+        rows = np.array([sure(off[:, :, m]) for m in range(off.shape[2])])
+        for flat in np.argsort(-rows, axis=None)[:CANDIDATES]:
+            m, k = np.unravel_index(int(flat), rows.shape)
+            moment, place = Moment(kind, int(m)), int(at.some[k])
+            if resolvable(*at.place(place), moment, TOLERANCE):
+                yield moment, place
+                break
 
 
 def _off(case: Case, theta: float, moment: Moment) -> Claim:

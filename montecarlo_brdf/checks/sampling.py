@@ -53,19 +53,29 @@ def claims(case: Case) -> Iterator[Claim]:
         yield Skip("sampling", f"model {case.model.name} has no sampler with a pdf")
         return
     for theta in case.theta_o_deg:
+        cells = tables(case, theta)
+        if _hidden(cells(FINE)):
+            reason = "a lobe of pdf lies where half vectors do not show it: `cover` asks about it"
+            yield Skip(f"distance of draws from pdf at {theta:g} degrees", reason)
+            continue
         yield FitClaim(
             "distance of draws from pdf",
             case.where(theta_o_deg=theta),
             case.tolerated(TOLERANCE),
-            refined(case, theta, tables(case, theta), case.tolerated(TOLERANCE), FINE, FINEST),
+            refined(case, theta, cells, case.tolerated(TOLERANCE), FINE, FINEST),
             property=PROPERTY,
         )
     # one lobe of several can be wrong where only all of them together tell
     ends = parameters.at_extremes(case) if _draws.chooses(case, case.theta_o_deg[0]) else ()
     for other, theta in (*parameters.elsewhere(case), *ends):
         cells = tables(other, theta)
-        if 0.0 < cells(COARSE).tables[2] < HEAVIEST:  # else see `pdf`
-            yield _elsewhere(other, theta, cells)
+        if 0.0 < cells(COARSE).tables[2] < HEAVIEST and not _hidden(cells(COARSE)):
+            yield _elsewhere(other, theta, cells)  # else see `pdf` and `cover`
+
+
+def _hidden(cells: Cells) -> bool:
+    """Whether the pdf has more than cells show."""
+    return 0.0 < cells.tables[2] < HEAVIEST and cells.lacking > GROSS * TOLERANCE
 
 
 def _elsewhere(case: Case, theta: float, cells: Tables) -> FitClaim:
@@ -105,9 +115,6 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     mass = cells.tables[2]
     if not 0.0 < mass < HEAVIEST:
         return Fit(math.nan, math.inf, 1.0, 0, f"the pdf has mass {mass:.4g}: see `pdf`")
-    if cells.lacking > GROSS * TOLERANCE:
-        hidden = "a lobe of pdf lies where half vectors do not show it"
-        return Fit(math.nan, math.inf, 1.0, 0, hidden)
     n = min(math.ceil(DRAWS * plan.samples), case.budget(MOST))
     place = (theta, case.phi_o_deg, *case.one)
     key = stream(plan.seed, case.model.identity, NAME, *place, n)
