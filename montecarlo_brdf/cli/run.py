@@ -5,6 +5,7 @@ import functools
 import gc
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from montecarlo_brdf.verify.supervision import Deadline
 
 INTERRUPTED = 130
+COVERAGE = "coverage"  # the check that tells which lines were not run
 #: options that stand above a project's file if they are given
 ABOVE = {"samples", "points", "tolerance", "seed", "effort"}
 #: options that only make sense with --model
@@ -57,6 +59,8 @@ Examples:
               help="Begin no claim after this; the rest is inconclusive. [--max-time 60]")
 @click.option("--effort", type=finite("in (0, 1]"), default=1.0, show_default=True,
               help="Share of the pairs, places and nodes that checks look at. [--effort 0.1]")
+@click.option("--require-coverage", is_flag=True,
+              help="Lines of a model that no check ran leave the verdict inconclusive.")
 @click.option("--baseline", type=_options.FILE, metavar="REPORT.json",
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
               "[--baseline main.json]")  # fmt: skip
@@ -67,7 +71,8 @@ Examples:
 def command(
     spec: str | None, assignments: tuple[str, ...], config: Path | None, names: str | list[str],
     theta_o: list[float], phi_o: float, against: str | None, max_time: float | None, effort: float,
-    baseline: Path | None, sampling: _options.Sampling, output: _options.Output,
+    require_coverage: bool, baseline: Path | None, sampling: _options.Sampling,
+    output: _options.Output,
 ) -> int:  # fmt: skip
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
@@ -103,6 +108,7 @@ def command(
     if max_time is not None and not max_time > 0.0:
         raise UserError(f"max-time must be a positive number of seconds, not {max_time}")
     report = gather(requests, threads, Deadline(math.inf if max_time is None else max_time))
+    report = covered(report) if require_coverage else report
     return finish(report, output, earlier)
 
 
@@ -176,6 +182,17 @@ def gather(requests: Sequence[Request | Broken], threads: int | None, deadline: 
     if reports[-1].measured["interrupted"]:
         reports += [_not_begun(one) for one in requests[len(reports) :]]
     return merged(reports)
+
+
+def covered(report: Report) -> Report:
+    """The report, inconclusive where it tells of lines that no check ran."""
+
+    def strict(result: Result) -> Result:
+        told = [replace(f, verdict=Verdict.INCONCLUSIVE) if f.verdict == Verdict.KNOWN else f
+                for f in result.findings]  # fmt: skip
+        return replace(result, findings=told) if result.check == COVERAGE else result
+
+    return replace(report, results=[strict(result) for result in report.results])
 
 
 def _not_begun(request: Request | Broken) -> Report:
