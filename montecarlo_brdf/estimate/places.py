@@ -40,7 +40,7 @@ WRITE: Any = hole()
 ROW: Any = hole()
 LINE: Any = hole()
 
-PAIR = 6  # numbers of a pair of directions, or of a direction and its u
+PAIR = 7  # two directions, or a direction and its u, and where the parameters are
 DRAWN = 4  # numbers per draw: x, y, z and the weight, NaN if the sampler returns none
 NODE = 4  # numbers of a node: u[0], u[1], u[4] and its weight
 PLACE = 4  # numbers of a place before its parameters: a direction and what the integrand needs
@@ -49,19 +49,19 @@ TOGETHER = 256  # nodes in each LINE
 
 
 def values(ints: Ints, reals: Reals, out: Out) -> None:
-    """out[j] = FUNCTION(wo_j, wi_j, p_j); ints = (rows, place of the first pair, place of the first
-    parameters, numbers from one set to the next: 0 if all share one)."""
+    """out[j] = FUNCTION(wo_j, wi_j, p_j); ints = (rows, place of the first), and in each row two
+    directions and the place of its parameters: many rows may share a set, which may be long."""
     for j in range(ints[0]):
-        p = PARAMETERS(ROW(reals, ints[2] + ints[3] * j))[0]
         at = ROW(reals, ints[1] + PAIR * j)
+        p = PARAMETERS(ROW(reals, int(at[6])))[0]
         out[j] = FUNCTION((at[0], at[1], at[2]), (at[3], at[4], at[5]), p)
 
 
 def draws(ints: Ints, reals: Reals, out: Out) -> None:
     """out[4 j ...] = FUNCTION(wo_j, u_j, p_j), a drawn direction and its weight; ints as there."""
     for j in range(ints[0]):
-        p = PARAMETERS(ROW(reals, ints[2] + ints[3] * j))[0]
         at = ROW(reals, ints[1] + PAIR * j)
+        p = PARAMETERS(ROW(reals, int(at[6])))[0]
         WRITE(FUNCTION((at[0], at[1], at[2]), (at[3], at[4], at[5]), p), out, DRAWN * j)
 
 
@@ -102,7 +102,14 @@ class Rows(NamedTuple):
     base: ParameterSet
     values: Array  # (n, parameters)
     shape: Shape
-    numbers: Array  # (n, numbers of a set as the model gets it)
+    sets: Array  # (m, numbers of a set as the model gets it)
+    which: Index  # (n,) places in `sets`
+
+    @property
+    def numbers(self) -> Array:
+        """(n, numbers of a set)."""
+        found: Array = self.sets[self.which]
+        return found
 
     def columns(self, fields: type[ParameterSet]) -> dict[str, Array]:
         """The columns whose names another NamedTuple has too."""
@@ -115,8 +122,7 @@ class Rows(NamedTuple):
 
     def at(self, index: Index | slice) -> Rows:
         """Some of the rows, in any order and as often as the index says."""
-        numbers = self.numbers if len(self.numbers) == 1 else self.numbers[index]
-        return self._replace(values=self.values[index], numbers=numbers)
+        return self._replace(values=self.values[index], which=self.which[index])
 
 
 def parameter_rows(model: Model, columns: Mapping[str, Any], base: ParameterSet, n: int) -> Rows:
@@ -137,16 +143,17 @@ def rows_of(model: Model, base: ParameterSet, table: Array) -> Rows:
     import numpy as np
 
     if model.prepare is None:
-        return Rows(base, table, shape_of(base), table)
+        return Rows(base, table, shape_of(base), table, np.arange(len(table)))
     if not base:
-        ready = [model.prepared(base)]
-        return Rows(base, table, shape_of(ready[0]), np.array([list(numbers_of(ready[0]))]))
+        one = model.prepared(base)
+        numbers = np.array([list(numbers_of(one))])
+        return Rows(base, table, shape_of(one), numbers, np.zeros(len(table), dtype=np.intp))
     table = np.ascontiguousarray(table)
     words = table.view(np.dtype((np.void, table.itemsize * table.shape[1]))).ravel()
     _, first, which = np.unique(words, return_index=True, return_inverse=True)
     ready = [model.prepared(base._make(map(float, table[k]))) for k in first]
     numbers = np.array([list(numbers_of(r)) for r in ready])
-    return Rows(base, table, shape_of(ready[0]), numbers[which.reshape(-1)])
+    return Rows(base, table, shape_of(ready[0]), numbers, which.reshape(-1))
 
 
 def values_of(model: Model, function: Function, wo: ArrayLike, wi: ArrayLike, sets: Rows) -> Array:
@@ -172,14 +179,15 @@ def _run(
     unpack = Unpack(following(sets.shape, 0))
     call = kernel(model.name, template, PARAMETERS=unpack, ROW=Row(), **names)
     a, b = np.atleast_2d(a), np.atleast_2d(b)
-    many, numbers = len(b) if len(a) == 1 else len(a), sets.numbers
-    data = np.empty(PAIR * many + numbers.size)
-    pairs = data[: PAIR * many].reshape(many, PAIR)
-    pairs[:, :3], pairs[:, 3:], data[PAIR * many :] = a, b, numbers.ravel()
-    stride = numbers.shape[1] if len(numbers) > 1 else 0
+    many = len(b) if len(a) == 1 else len(a)
+    first = PAIR * many
+    data = np.empty(first + sets.sets.size)
+    pairs = data[:first].reshape(many, PAIR)
+    pairs[:, :3], pairs[:, 3:6], data[first:] = a, b, sets.sets.ravel()
+    pairs[:, 6] = first + sets.sets.shape[1] * sets.which
     out = np.full((many, width), np.nan)
     for k, count in call.pieces(many):
-        call.on([count, PAIR * k, PAIR * many + stride * k, stride], data, out[k:])
+        call.on([count, PAIR * k], data, out[k:])
     return out
 
 
