@@ -11,6 +11,8 @@ from typing import NamedTuple
 import pytest
 from hypothesis import settings
 
+import montecarlo_brdf
+from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.cli import execute as run
 
 #: No deadlines: a busy machine is no error. In CI the same cases every time.
@@ -79,3 +81,16 @@ def user_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
         return path
 
     return write
+
+
+@pytest.fixture
+def case_of(user_file: Callable[..., Path]) -> Callable[..., Case]:
+    """The case of a model that a test writes down; its parameters may vary over their ranges."""
+
+    def make(text: str, **changed: object) -> Case:
+        head = "import math\nfrom typing import NamedTuple\n\n"
+        model = montecarlo_brdf.load(str(user_file(head + text)))
+        case = Case(model, model.parameters(), (0.0, 45.0), free=searched(model, {}))
+        return case._replace(**changed)
+
+    return make
