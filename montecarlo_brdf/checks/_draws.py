@@ -52,7 +52,7 @@ REPLICATES = 64
 #: draws of a place where all laws are asked, and replicates
 DRAWS_EACH, REPLICATES_EACH = 128, 8
 #: (slopes, azimuths), draws, and how many places are kept: of all places, then of those
-MASSES = (((48, 32), 512, 24), ((128, 128), 1 << 14, 6))
+MASSES = (((32, 24), 256, 24), ((128, 128), 1 << 14, 6))
 INNER = 1e-9  # a number u is at an end if it is nearer to 0 or 1
 
 

@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array
 
 NAME = "mixture"
-MOST = 1 << 19  # nodes of an estimate
+QUICK, MOST = 1 << 17, 1 << 19  # nodes of an estimate, and of one that looks like refuting
+DOUBTED = 2.0  # standard errors from which on it does
 #: nodes of the places that look worst, and how many of them are looked at so
 STAGES = ((2048, 24), (1 << 14, 4))
 LIKELY = 8  # places of the first stage by their mean, whatever its error
@@ -62,7 +63,11 @@ def reflected(
     unfit = None
     if not moment_is_finite(4, Sampler.COSINE, exponent):
         unfit = f"f grows like mu^-{exponent:.2f}: its error bar can not be trusted"
-    found = _estimated(model, one, fixed, plan, reflected_of, own=False, reverse=reverse)
+    how = {"own": False, "reverse": reverse}
+    quick = plan._replace(samples=min(plan.samples, QUICK))
+    found = _estimated(model, one, fixed, quick, reflected_of, **how)
+    if found.estimate.mean - DOUBTED * found.estimate.stderr > 1.0:  # the rest is for a refutation
+        found = _estimated(model, one, fixed, plan, reflected_of, **how)
     return found._replace(unfit=unfit)
 
 

@@ -119,9 +119,7 @@ def difference(
     """By kind (n, replicates, moments) of means over draws less what they must equal, in units of
     light, or of one moment alone; and what the mixture hardly hits."""
     each, rng = size // replicates, np.random.default_rng(key)
-    # what decides takes independent numbers: a sampler may take nets apart, and their error bars
-    nets = [np.mod(net(each, 13) + rng.random(3), 1.0) for _ in range(0 if only else replicates)]
-    u = rng.random((size, 3)) if only else np.concatenate(nets)
+    u = np.concatenate([np.mod(net(each, 13) + rng.random(3), 1.0) for _ in range(replicates)])
     own = drawn(model, at, centre, np.clip(u, INNER, 1.0 - INNER))
     nodes = nodes_of(model, at, centre, size, replicates, key + 1)
     value = nodes.f * nodes.w[..., 2]

@@ -91,6 +91,7 @@ def _fills(value: object, name: str, names: Mapping[str, object]) -> bool:
     return isinstance(value, Hole) and name in names
 
 
+@functools.lru_cache(maxsize=256)
 def takes_more(function: Function | None, place: int, count: int) -> bool:
     """Whether `function` may use more than the first `count` elements of the argument at `place`.
 

@@ -202,7 +202,8 @@ def frame(w: Array) -> tuple[Array, Array]:
 
 def _density_around(centre: Array, w: Array) -> Array:
     """The density of `around` at w, in 1/sr: the chord s covers 2 pi s ds of the sphere."""
-    square = np.maximum(np.sum((w - centre) ** 2, axis=-1), NEAREST * NEAREST)
+    away = w - centre
+    square = np.maximum(np.einsum("...i,...i", away, away), NEAREST * NEAREST)
     density: Array = 1.0 / (2.0 * math.pi * LOGARITHM * square)
     return density
 
