@@ -27,7 +27,7 @@ class Params(NamedTuple):
     kind: float = 0.0
 
 
-domain = {"a": (0.0, 1.0), "b": (0.0, 1.0), "kind": (0.0, 3.0)}
+domain = {"a": (0.0, 1.0), "b": (0.0, 1.0), "kind": (0.0, 4.0)}
 isotropic = False
 
 
@@ -53,7 +53,7 @@ def pdf(wo, wi, p):
 CONDITIONS: dict[str, Callable[..., np.ndarray]] = {
     "a constant of the code": lambda at: at.table[:, 0] == 0.0375,
     "a constant's square root": lambda at: at.table[:, 0] == 0.125**0.5,
-    "a whole number": lambda at: at.table[:, 2] == 2.0,
+    "a whole number": lambda at: at.table[:, 2] == 3.0,
     "two equal parameters": lambda at: at.table[:, 0] == at.table[:, 1],
     "a sum of 1": lambda at: at.table[:, 0] == 1.0 - at.table[:, 1],
     "wo in a plane of the frame": lambda at: at.wo[:, 0] == 0.0,
@@ -88,6 +88,14 @@ def test_a_point_lies_where_its_label_says(case_of: Make) -> None:
     assert list(np.unique(at.label)) == [0, 1] and len(at.label) == 128
     assert np.all(at.table[at.label == 0, 0] == 0.0375) and np.all(at.u[at.label == 1, 1] == 0.25)
     assert at.labels[0] == "; found at a = 0.0375, which the code may ask for"
+
+
+def test_equal_parameters_are_tried_at_any_value(case_of: Make) -> None:
+    case = case_of(MODEL)
+    related = [s for s in specials(case) if s.place is Place.RATIO and s.value == 0.0]
+    assert {s[2:] for s in related} == {(j, k) for j in range(3) for k in range(3) if j != k}
+    at = points(case, 64, [s for s in related if s[2:] == (0, 1)])
+    assert np.all(at.table[:, 0] == at.table[:, 1]) and len(set(at.table[:, 0])) > 10
 
 
 def test_values_stay_in_the_ranges(case_of: Make) -> None:

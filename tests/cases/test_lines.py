@@ -98,6 +98,13 @@ def test_lines_of_prepare_count_where_it_is_followed(case_of: Make) -> None:
 
 
 def test_who_traces_already_goes_on(case_of: Make) -> None:
+    def mine(*_: object) -> None:
+        """A tracer as a debugger's."""
+
     before = sys.gettrace()
-    unrun(look(case_of(HEAD + NEVER, effort=EFFORT)))
-    assert sys.gettrace() is before
+    sys.settrace(mine)
+    try:
+        unrun(look(case_of(HEAD + NEVER, effort=EFFORT)))
+        assert sys.gettrace() is mine
+    finally:
+        sys.settrace(before)
