@@ -21,9 +21,9 @@ def test_small_values_are_held_against_a_share_of_the_largest() -> None:
 
 
 def test_what_is_not_finite_is_left_to_positivity() -> None:
-    one = np.array([math.nan, math.inf, -math.inf, 1.0])
-    other = np.array([1.0, math.inf, 1.0, 4.0])
-    assert list(relative(one, other)) == [0.0, 0.0, 0.0, 0.75]
+    one = np.array([math.nan, math.inf, -math.inf, 1.0, 2.0])
+    other = np.array([1.0, math.inf, 1.0, 4.0, math.nan])
+    assert list(relative(one, other)) == [0.0, 0.0, 0.0, 0.75, 0.0]
 
 
 def test_nothing_differs_from_nothing() -> None:
