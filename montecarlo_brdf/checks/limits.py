@@ -12,7 +12,7 @@ import functools
 from collections.abc import Iterator
 
 from montecarlo_brdf.cases.case import Case, Parameters
-from montecarlo_brdf.checks import _albedo, _deviation, equality
+from montecarlo_brdf.checks import _albedo, _deviation, _truth, equality
 from montecarlo_brdf.judge.claim import (
     AGREEMENT_TOLERANCE,
     Claim,
@@ -63,6 +63,7 @@ def _lossless_claims(case: Case, p: Parameters) -> Iterator[Claim]:
             case.tolerated(AGREEMENT_TOLERANCE),
             functools.partial(_albedo.of_channel, measure, 0),
             property=PROPERTY,
+            fallback=functools.partial(_truth.deterministic, case.model, p, case.wo(theta)),
         )
 
 
