@@ -91,9 +91,10 @@ def rounding(f: At, wo: Array, wi: Array, rng: np.random.Generator) -> Array:
 
 def _moved(w: Array, rng: np.random.Generator) -> Array:
     """By up to 4 ulps of each coordinate; near the horizon, where z = 1 - x x - y y has lost
-    digits, by up to 256. What is exactly 0 stays so: the code may ask for it."""
+    digits, by up to 256. What is exactly 0, or the normal, stays so: code may ask for it."""
     lost = (rng.random((len(w), 1)) < 0.5) & (w[:, 2:] < 1e-3)
     ulps = rng.integers(-2, 3, w.shape) + rng.integers(-2, 3, w.shape)
+    ulps[w[:, 2] == 1.0] = 0
     moved: Array = w + 2.0**-52 * np.where(lost, 64.0, 1.0) * w * ulps
     return moved
 

@@ -85,7 +85,7 @@ def _towards_lobes(case: Case, at: Points, s: Array, t: Array) -> Points:
     centre = at.wo * np.where(t[:, None] < 0.75, MIRROR, 1.0)
     wi[near] = around(centre[near], s[near], np.mod(4.0 * t[near], 1.0))
     exact = kind == 9
-    ulps = ULPS[(1e6 * at.u[exact]).astype(int) % 5] * (t[exact, None] < 0.5)
+    ulps = ULPS[(1e6 * at.u[exact]).astype(int) % 5] * (np.mod(8.0 * t[exact, None], 1.0) < 0.5)
     wi[exact] = centre[exact] + ulps
     own = (kind < 5) if case.model.sample else np.zeros(len(kind), dtype=bool)
     if own.any():

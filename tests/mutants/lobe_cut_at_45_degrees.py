@@ -2,7 +2,7 @@
 wide ones reach further.
 
 suite: slow
-caught by: sampling
+caught by: cover
 cause: none
 """
 

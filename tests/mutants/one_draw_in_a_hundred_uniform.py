@@ -2,7 +2,7 @@
 know it.
 
 suite: slow
-caught by: pdf
+caught by: radiance
 cause: none
 """
 

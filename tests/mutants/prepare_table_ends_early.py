@@ -2,7 +2,7 @@
 exponents below 1.5, where it was never looked at.
 
 suite: slow
-caught by: pdf
+caught by: cover
 cause: none
 """
 

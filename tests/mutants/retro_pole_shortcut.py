@@ -2,7 +2,7 @@
 lobe is drawn about the normal there. Sharp lobes miss their place.
 
 suite: slow
-caught by: pdf
+caught by: cover
 cause: none
 """
 

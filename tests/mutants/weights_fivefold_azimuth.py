@@ -2,7 +2,7 @@
 not know: the albedo is right, no direction is.
 
 suite: slow
-caught by: radiance
+caught by: cover
 cause: azimuth
 """
 
