@@ -32,7 +32,7 @@ NEAREST, FARTHEST = 1e-6, 2.0
 LOGARITHM = math.log(FARTHEST / NEAREST)
 
 
-TOGETHER = 1 << 18  # nodes at a time: what is kept of one is some twenty numbers
+TOGETHER = 1 << 16  # nodes at a time: what is kept of one is some twenty numbers
 INNER = 1e-12  # numbers u keep clear of 0 and 1 by this
 STARTS, ROUNDS, STEP = 48, 18, 0.25  # of the ascent to a peak of f cos, and its first step
 DRAWN = 6  # own draws around which lobes may be
