@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import types
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -84,8 +84,3 @@ def source_lines(function: Function) -> set[int]:
     code = function.__code__
     lines = {line for _, _, line in code.co_lines() if line}
     return lines - {code.co_firstlineno}
-
-
-def file_of(functions: Sequence[Function]) -> str:
-    """Where the first of some functions stands."""
-    return str(functions[0].__code__.co_filename)

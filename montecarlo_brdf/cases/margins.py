@@ -11,6 +11,7 @@ cannot run on arrays.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from enum import Enum
@@ -85,8 +86,9 @@ def _redirected(w: Array, k: int, value: Array) -> Array:
     return np.stack([*columns, z], axis=-1)
 
 
+@functools.lru_cache(maxsize=8)
 def points(case: Case) -> Points | None:
-    """All crossings of f, pdf and sample."""
+    """All crossings of f, pdf and sample: once for the points of values and the places of means."""
     members = [name for name in ("f", "pdf", "sample") if getattr(case.model, name)]
     found = [at for name in members if (at := Crossings(case, name).points()) is not None]
     return joined(found) if found else None

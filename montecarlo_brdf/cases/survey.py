@@ -72,7 +72,7 @@ class Survey:
         x, y, z = map(float, self.points.wo[k])
         phi = math.degrees(math.atan2(y, x)) if x or y else 0.0
         p: Parameters = self.at.sets.parameters(k)
-        there = self.case._replace(p=p, phi_o_deg=phi, viewer=(x, y, z), free=self.case.free)
+        there = self.case._replace(p=p, phi_o_deg=phi, viewer=(x, y, z))
         return there, math.degrees(math.atan2(math.hypot(x, y), z))
 
     def source(self, k: int) -> str:

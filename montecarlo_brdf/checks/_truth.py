@@ -157,9 +157,9 @@ def probes(
 def _cosine_probes(seed: int) -> Probes:
     import numpy as np
 
-    u = _pilot(seed)[:PROBES]
-    r, phi = np.sqrt(u[:, 0]), 2.0 * np.pi * u[:, 1]
-    wi = np.stack([r * np.cos(phi), r * np.sin(phi), np.sqrt(1.0 - u[:, 0])], axis=-1)
+    from montecarlo_brdf.estimate.mixture import cosine
+
+    wi = cosine(_pilot(seed)[:PROBES])
     return wi, np.pi / (PROBES * wi[:, 2])
 
 
