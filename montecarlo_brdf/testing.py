@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypedDict, Unpack
 
-from montecarlo_brdf import loading
+from montecarlo_brdf import contract, loading
 from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge.finding import Policy, Report, Verdict
 from montecarlo_brdf.model import Model
@@ -200,7 +200,7 @@ def as_model(brdf: object, p: Parameters = None) -> Model:
     namespace = {"__doc__": brdf.__doc__, "__file__": file, **inside, "f": f}
     if isinstance(p, tuple) and "Params" not in namespace:
         namespace["Params"] = type(p)
-    return loading.build(getattr(brdf, "__name__", type(brdf).__name__), namespace)
+    return contract.build(getattr(brdf, "__name__", type(brdf).__name__), namespace)
 
 
 def parameters_of(model: Model, p: Parameters) -> Any:

@@ -18,7 +18,7 @@ FLOW = (
     ("bits", "files", "special", "toml", "vectors"),
     ("compile", "statistics"),
     ("sampling",),
-    ("counterpart", "foreign", "loading", "mixture", "model", "models"),
+    ("contract", "counterpart", "foreign", "loading", "mixture", "model", "models"),
     ("arithmetic",),
     ("estimate",),
     ("cases",),

@@ -20,7 +20,8 @@ from collections.abc import Callable, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
-from montecarlo_brdf.loading import build, load
+from montecarlo_brdf.contract import build
+from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.models._half_lobe import pdf, sample
 from montecarlo_brdf.models._microfacet import half_power, half_sums

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from montecarlo_brdf import loading
+from montecarlo_brdf import contract
 from montecarlo_brdf.foreign import glsl, translate, translation, wheel
 from montecarlo_brdf.foreign.model_text import Texts
 from montecarlo_brdf.model import Model
@@ -47,7 +47,7 @@ def functions(text: str) -> dict[str, Any]:
 def model(name: str) -> Model:
     """The model that a stored shader is."""
     found = texts(name)
-    made = loading.build(name, functions(found.double))
+    made = contract.build(name, functions(found.double))
     return dataclasses.replace(made, single=lambda: functions(found.single))
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from columns import in_precision
 
-from montecarlo_brdf import loading
+from montecarlo_brdf import contract, loading
 from montecarlo_brdf.arithmetic import rung as ladder
 from montecarlo_brdf.arithmetic import types as arithmetic
 from montecarlo_brdf.arithmetic.rung import Rung
@@ -65,7 +65,7 @@ def leaving(wo, wi, p):  # type: ignore[no-untyped-def]
 
 @pytest.mark.parametrize("f", [widening, leaving])
 def test_widening_is_not_silent(f: object) -> None:
-    model = loading.build("wide", {"f": f, "np": np})
+    model = contract.build("wide", {"f": f, "np": np})
     up = np.array([[0.0, 0.0, 1.0], [0.6, 0.0, 0.8]], dtype=np.float32)
     with pytest.raises(ModelError, match="leaves its precision"):
         Rung(model, SINGLE).f(up, up, model.Params())

@@ -8,7 +8,7 @@ from __future__ import annotations
 import importlib
 from pathlib import Path
 
-from montecarlo_brdf import loading
+from montecarlo_brdf import contract, loading
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.model import Model
 
@@ -21,7 +21,7 @@ def names() -> list[str]:
 def load(spec: str) -> Model:
     """A specimen by name, or any model that `loading.load` knows."""
     if spec in names():
-        return loading.build(spec, vars(importlib.import_module(f"{__name__}.{spec}")))
+        return contract.build(spec, vars(importlib.import_module(f"{__name__}.{spec}")))
     known = loading.names()
     if spec not in known and not (loading.is_path(spec) or "+" in spec):
         either = ", or give the path of a .py file or of a shader"
