@@ -14,7 +14,7 @@ from typing import TextIO
 
 import click
 
-from montecarlo_brdf.compile import cache
+from montecarlo_brdf.compile import folders
 from montecarlo_brdf.compile.kernel import listeners
 from montecarlo_brdf.report.text import PLAIN_WIDTH
 
@@ -66,9 +66,9 @@ def tell(text: str) -> None:
 @contextlib.contextmanager
 def progress(title: str) -> Iterator[Callable[[float], None]]:
     """A callback for the fraction done; draws nothing unless stderr is a terminal."""
-    if why := cache.fault():
+    if why := folders.fault():
         slow = "everything is compiled anew each time"
-        click.echo(f"Warning: cannot write to {cache.directory()} ({why}): {slow}", err=True)
+        click.echo(f"Warning: cannot write to {folders.directory()} ({why}): {slow}", err=True)
     if _quiet():
         yield lambda done: None
         return

@@ -4,6 +4,7 @@ stored one can never be stale.
 A file is a digest and an object file. It is written beside its final name and moved there, so two
 processes that compile the same kernel at once cannot disturb each other; a damaged file does not
 match its digest and counts as absent; a cache that cannot be written is not an error, only slow.
+Folders that are only read may lie below the one that is written (`compile.folders`).
 Beside them lie notes: files of lines, each with its digest, to which any process may add.
 """
 from __future__ import annotations
@@ -15,10 +16,11 @@ import os
 import tempfile
 import time
 import types
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from montecarlo_brdf.compile import folders
 from montecarlo_brdf.compile.bind import (
     Bound,
     Instruction,
@@ -32,7 +34,6 @@ from montecarlo_brdf.compile.bind import (
 )
 
 DIGEST = 16
-KEEP = 2000  # files; the least recently used beyond that are removed
 LARGEST_NOTES = 1 << 20  # bytes; a file of notes beyond that is begun anew
 LEFT_BEHIND = 3600.0  # seconds after which nobody writes a file any more
 #: Values whose repr is all there is to know about them.
@@ -42,36 +43,19 @@ _PROCESS = os.urandom(16)
 _unknown: dict[int, Any] = {}
 
 
-def directory() -> Path:
-    """$BRDF_CHECK_CACHE_DIR or the user's cache directory."""
-    chosen = os.environ.get("BRDF_CHECK_CACHE_DIR")
-    if chosen:
-        return Path(chosen)
-    import platformdirs
-
-    return Path(platformdirs.user_cache_dir("montecarlo_brdf"))
-
-
-def fault() -> str | None:
-    """Why nothing can be stored, or None if it can."""
-    folder = directory()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        return error.strerror or str(error)
-    return None if os.access(folder, os.W_OK | os.X_OK) else "permission denied"
-
-
 def read(name: str) -> bytes | None:
     """The stored image, or None if it is absent, unreadable or damaged."""
-    content = _content(f"{name}.o")
-    image = content[DIGEST:]
-    return image if content[:DIGEST] == _digest(image) else None
+    images = ((c[:DIGEST], c[DIGEST:]) for c in _contents(f"{name}.o"))
+    found = next((image for digest, image in images if digest == _digest(image)), None)
+    folders.count_use(found is not None)
+    return found
 
 
 def write(name: str, image: bytes) -> None:
     """Store an image; silently do without where the directory cannot be written."""
-    folder = directory()
+    if DIGEST + len(image) > folders.limit():
+        return
+    folder = folders.directory()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         handle, temporary = tempfile.mkstemp(dir=folder, suffix=".part")
@@ -81,7 +65,7 @@ def write(name: str, image: bytes) -> None:
         with os.fdopen(handle, "wb") as file:
             file.write(_digest(image) + image)
         os.replace(temporary, folder / f"{name}.o")
-        _prune(folder)
+        folders.keep_within(folder, DIGEST + len(image))
         clear_leftovers(folder)
     except OSError:
         with contextlib.suppress(OSError):
@@ -90,25 +74,24 @@ def write(name: str, image: bytes) -> None:
 
 def notes(name: str) -> list[str]:
     """The lines noted under a name, without damaged ones."""
-    whole = (line.partition(b" ") for line in _content(f"{name}.txt").splitlines())
+    lines = (line for content in _contents(f"{name}.txt") for line in content.splitlines())
+    whole = (line.partition(b" ") for line in lines)
     return [text.decode() for digest, _, text in whole if digest == _digest(text).hex().encode()]
 
 
-def _content(name: str) -> bytes:
-    """A file's, which counts as used now; nothing if it is absent or unreadable."""
-    path = directory() / name
-    try:
-        content = path.read_bytes()
-    except OSError:
-        return b""
-    with contextlib.suppress(OSError):
-        os.utime(path)
-    return content
+def _contents(name: str) -> Iterator[bytes]:
+    """A file's in each folder that has it, which counts as used now."""
+    for folder in folders.folders():
+        with contextlib.suppress(OSError):
+            content = (folder / name).read_bytes()
+            with contextlib.suppress(OSError):  # of a folder that is only read
+                os.utime(folder / name)
+            yield content
 
 
 def note(name: str, line: str) -> None:
     """Add a line; silently do without where the directory cannot be written."""
-    path, text = directory() / f"{name}.txt", line.encode()
+    path, text = folders.directory() / f"{name}.txt", line.encode()
     with contextlib.suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         with open(path, "ab") as file:  # one write of a short line: processes do not mix theirs
@@ -119,15 +102,6 @@ def note(name: str, line: str) -> None:
 
 def _digest(image: bytes) -> bytes:
     return hashlib.blake2b(image, digest_size=DIGEST).digest()
-
-
-def _prune(folder: Path) -> None:
-    files = [*folder.glob("*.o"), *folder.glob("*.txt")]
-    if len(files) <= KEEP:
-        return
-    for path in sorted(files, key=lambda p: p.stat().st_mtime)[: len(files) - KEEP]:
-        with contextlib.suppress(OSError):
-            path.unlink()
 
 
 def clear_leftovers(folder: Path) -> None:

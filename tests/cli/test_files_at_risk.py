@@ -108,13 +108,13 @@ def test_killed_in_the_middle_of_a_report(tmp_path: Path, warm: Path) -> None:
 
 def test_killed_in_the_middle_of_a_cache_entry(tmp_path: Path, truth: Any) -> None:
     killed_while_writing(*QUICK, cache=tmp_path)
-    (half,) = tmp_path.iterdir()
+    (half,) = (p for p in tmp_path.iterdir() if p.name != kernels.folders.USES)
     assert half.suffix == ".part" and half.stat().st_size > 0
     assert results(run(*QUICK, cache=tmp_path)[1]) == truth
     assert half.exists()  # another process may still be writing it
     os.utime(half, (0, 0))
     kernels.clear_leftovers(tmp_path)
-    assert {p.suffix for p in tmp_path.iterdir()} == {".o"}
+    assert not [*tmp_path.glob("*.part")] and [*tmp_path.glob("*.o")]
 
 
 def test_killed_while_compiling(tmp_path: Path, truth: Any) -> None:
