@@ -12,7 +12,7 @@ import pytest
 
 from montecarlo_brdf import load
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result
 from montecarlo_brdf.testing import (
     as_model,
     assert_checks,
@@ -135,7 +135,7 @@ def test_convergence() -> None:
 
 def test_undecided_is_no_proof() -> None:
     late = Finding("A", {}, "inconclusive", note="too few samples")
-    report = Report("run", {}, [Result("m", {}, "furnace", [late])])
+    report = Report(Command.RUN, {}, [Result("m", {}, "furnace", [late])])
     with pytest.raises(AssertionError, match="m: inconclusive\n.*\n    note: too few samples"):
         require(report)
     require(report, "pass")

@@ -59,6 +59,7 @@ def command(
     """
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._terminal import progress
+    from montecarlo_brdf.judge.finding import Command
     from montecarlo_brdf.verify import furnace
     from montecarlo_brdf.verify.question import failed, merged, part_of
 
@@ -77,5 +78,5 @@ def command(
             except ModelError as error:
                 if len(models) == 1:
                     raise
-                reports.append(failed("furnace", model.name, error))
+                reports.append(failed(Command.FURNACE, model.name, error))
     return _options.deliver(merged(reports), output)

@@ -15,7 +15,15 @@ from montecarlo_brdf.cli import _options
 from montecarlo_brdf.cli._options import Read, finite, listed, models_of
 from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge import finding
-from montecarlo_brdf.judge.finding import EXIT_CODES, Finding, Policy, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import (
+    EXIT_CODES,
+    Command,
+    Finding,
+    Policy,
+    Report,
+    Result,
+    Verdict,
+)
 
 if TYPE_CHECKING:
     from montecarlo_brdf.cli._requests import Broken, Project, Request, Terms
@@ -174,7 +182,7 @@ def gather(requests: Sequence[Request | Broken], threads: int | None, deadline: 
                 except ModelError as error:
                     if len(requests) == 1:
                         raise
-                    reports.append(failed("run", one.title(), error))
+                    reports.append(failed(Command.RUN, one.title(), error))
                 if reports[-1].measured["interrupted"]:
                     break
     except KeyboardInterrupt:  # between two runs
@@ -199,7 +207,7 @@ def _not_begun(request: Request | Broken) -> Report:
     """What an interruption leaves of a request."""
     told = Finding("run", {}, Verdict.INCONCLUSIVE, note="not begun: interrupted")
     result = Result(request.title(), {}, "run", [told])
-    return Report("run", {}, [result], {"seconds": 0.0, "interrupted": True})
+    return Report(Command.RUN, {}, [result], {"seconds": 0.0, "interrupted": True})
 
 
 def finish(report: Report, output: _options.Output, earlier: Report | None) -> int:

@@ -26,6 +26,19 @@ class Verdict(StrEnum):
     SKIPPED = "skipped"
 
 
+class Command(StrEnum):
+    """What was asked; a report is drawn and told by it."""
+
+    RUN = "run"
+    FURNACE = "furnace"
+    CONVERGE = "converge"
+    RADIANCE = "radiance"
+    STRESS = "stress"
+    COMPARE = "compare"
+    IDENTITIES = "identities"
+    CHECK = "check"  # one result of a report
+
+
 class Bound(StrEnum):
     """How a number is held against what is expected."""
 
@@ -111,7 +124,7 @@ class Result:
 class Report:
     """The only artefact of a run."""
 
-    command: str
+    command: Command
     settings: dict[str, Any]
     results: list[Result]
     measured: dict[str, Any] = field(default_factory=dict)

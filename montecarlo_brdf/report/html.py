@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from montecarlo_brdf.judge.finding import SEVERITY, Finding, Report, Result, Verdict, worst
+from montecarlo_brdf.judge.finding import SEVERITY, Command, Finding, Report, Result, Verdict, worst
 from montecarlo_brdf.report import pictures, text
 from montecarlo_brdf.report.columns import NO_BREAK, Column
 from montecarlo_brdf.report.pictures import inline, margins
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 TEMPLATES = Path(__file__).parent / "templates"
 #: commands with pictures of their own for each part
-CURVES = ("converge", "furnace", "radiance", "stress")
+CURVES = (Command.CONVERGE, Command.FURNACE, Command.RADIANCE, Command.STRESS)
 MOST_ROWS = 200  # of a table: the worst of more
 MOST_DOTS = 150  # of a check in a picture
 MOST_DIALS = 12
@@ -184,11 +184,11 @@ def _table(caption: str, section: text.Section) -> Table:
 
 def _details(report: Report, results: Sequence[Result]) -> list[tuple[str, Table]]:
     """All findings of each check, where the table above has one row a check."""
-    if report.command != "run":
+    if report.command is not Command.RUN:
         return []
     found = []
     for result in results:
-        single = Report("check", report.settings, [result])
+        single = Report(Command.CHECK, report.settings, [result])
         for section in text.sections(single):
             found.append((result.check, _table(f"{result.check} in full", section)))
     return found
@@ -230,11 +230,11 @@ def _thinned(result: Result) -> Result:
 
 def _drawable(
     report: Report, results: Sequence[Result]
-) -> Iterator[tuple[str, list[Result], str]]:
-    if report.command == "run":
+) -> Iterator[tuple[Command, list[Result], str]]:
+    if report.command is Command.RUN:
         some = [r for r in results if r.check == "furnace"]
         if any(math.isfinite(f.value) for r in some for f in r.findings if f.quantity == "A"):
-            yield "furnace", some, "Albedo against the viewer's angle, and its error"
+            yield Command.FURNACE, some, "Albedo against the viewer's angle, and its error"
     elif report.command in CURVES:
         yield report.command, list(results), f"The picture of {report.command}"
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.judge.finding import SCHEMA, Bound, Finding, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import SCHEMA, Bound, Command, Finding, Report, Result, Verdict
 
 NUMBER = (int, float)
 #: members of a result and of a finding -> their type; others are not looked at
@@ -37,6 +37,7 @@ def read_report(path: Path) -> Report:
         found = data.get("schema")
         raise UserError(f"{path} has schema {found}; this version reads schema {SCHEMA}")
     try:
+        command = Command(data.get("command", ""))
         results = [_result(result) for result in data["results"]]
         settings, measured = (dict(data.get(name, {})) for name in ("settings", "measured"))
     except (AttributeError, KeyError, TypeError, ValueError) as error:
@@ -44,7 +45,7 @@ def read_report(path: Path) -> Report:
         raise UserError(sentence) from error
     versions = data.get("versions")
     known = {str(k): str(v) for k, v in versions.items()} if isinstance(versions, dict) else {}
-    return Report(str(data.get("command")), settings, results, measured, known)
+    return Report(command, settings, results, measured, known)
 
 
 def _result(data: dict[str, Any]) -> Result:

@@ -12,7 +12,16 @@ from dataclasses import replace
 from enum import StrEnum
 from typing import Any, NamedTuple
 
-from montecarlo_brdf.judge.finding import SEVERITY, Bound, Finding, Report, Result, Verdict, worst
+from montecarlo_brdf.judge.finding import (
+    SEVERITY,
+    Bound,
+    Command,
+    Finding,
+    Report,
+    Result,
+    Verdict,
+    worst,
+)
 from montecarlo_brdf.report.columns import NO_BREAK, Column, Row, Style, painted, table
 
 SYMBOLS = {f"{a}_{d}_deg": f"{a}_{d}" for a in ("theta", "phi") for d in "oi"}
@@ -190,11 +199,11 @@ def render(
 
 def sections(report: Report, verbose: bool = False) -> Iterator[Section]:
     """A table for each model or check."""
-    if report.command == "stress":
+    if report.command is Command.STRESS:
         for result, precisions in zip(report.results, report.measured["precisions"], strict=True):
             rows = [_precision(result, measured) for measured in precisions]
             yield Section(title(result), PRECISION, rows, _broken(result), [result])
-    elif report.command == "run" and not verbose:
+    elif report.command is Command.RUN and not verbose:
         for group in grouped(report.results):
             rows = [_check(result) for result in group if result.findings]
             yield Section(case(group[0]), CHECK, rows, _of_checks(group), group)
@@ -369,7 +378,7 @@ def summary(report: Report, colour: bool = False) -> str:
     """The verdict, how it came about, and how often it would be wrong."""
     findings = [f for r in report.results for f in r.findings]
     verdict = painted(report.verdict.upper(), style(worst(f.verdict for f in findings)), colour)
-    if report.command == "stress":
+    if report.command is Command.STRESS:
         return verdict
     drawn = [f.samples for f in findings if f.samples and f.level is not None]
     samples = min(max(drawn, default=0), report.settings.get("samples", math.inf))

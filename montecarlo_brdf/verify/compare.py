@@ -14,7 +14,7 @@ from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.estimate.probe import number_from
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Exact, ExactClaim, Kind, Reference
-from montecarlo_brdf.judge.finding import Bound, Report
+from montecarlo_brdf.judge.finding import Bound, Command, Report
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.report.text import called
 from montecarlo_brdf.vectors import from_degrees
@@ -71,7 +71,7 @@ def compare(
     told = {"theta_o_deg": angles, "phi_o_deg": phi_o_deg, "tolerance": tolerance, "seed": seed}
     count = 1 + 2 * len(angles)
     with failure.located(other, lambda: [q for _, q in pairs], angles):
-        return answered("compare", told, questions, settings.plan, count, progress)
+        return answered(Command.COMPARE, told, questions, settings.plan, count, progress)
 
 
 def common(model: Model, other: Model) -> tuple[str, ...]:

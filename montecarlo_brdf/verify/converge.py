@@ -24,7 +24,7 @@ from montecarlo_brdf.estimate.quantity import Quantity
 from montecarlo_brdf.estimate.samplers import charts_of, integrand, samplers_of
 from montecarlo_brdf.judge.claim import Kind, Reference, Slope, SlopeClaim
 from montecarlo_brdf.judge.decide import LEVEL, SHOWN
-from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.judge.finding import Command, Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.sampling.directions import DIRECTIONS, Sampler
 from montecarlo_brdf.sampling.points import SETS, PointSet
@@ -99,7 +99,7 @@ def converge(
     told = {"theta_o_deg": theta, "phi_o_deg": phi_o_deg, "sampler": samplers}
     told |= {**settings.told(), "points": ", ".join(sets)}
     count = len(samplers) * len(sets)
-    report = answered("converge", told, questions, settings.plan, count, progress)
+    report = answered(Command.CONVERGE, told, questions, settings.plan, count, progress)
     # a rate accuses no line of f
     return replace(report, results=[replace(r, source={}) for r in report.results])
 

@@ -14,7 +14,7 @@ from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.estimate.samplers import SAMPLERS, samplers_of
 from montecarlo_brdf.files import check_writable, write_text
-from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.judge.finding import Command, Report
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.question import (
@@ -70,7 +70,7 @@ def furnace(
     count = 2 * len(thetas) * len(cases[0].sets) if cases else 1
     told = {"theta_o_deg": thetas, "phi_o_deg": phi_o_deg, "sampler": samplers}
     told |= {"tolerance": tolerance, **settings.told()}
-    report = answered("furnace", told, questions, settings.plan, count, progress)
+    report = answered(Command.FURNACE, told, questions, settings.plan, count, progress)
     if not curve:
         return report
     drawn = []

@@ -17,12 +17,12 @@ from montecarlo_brdf.estimate.quantity import Quantity, integrand
 from montecarlo_brdf.estimate.samplers import Subject
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge.claim import AGREEMENT_TOLERANCE, Kind, MeanClaim, Reference
-from montecarlo_brdf.judge.finding import Bound, Report, Result
+from montecarlo_brdf.judge.finding import Bound, Command, Report, Result
 from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import NORMAL, Vec, from_degrees
 from montecarlo_brdf.verify.question import SAMPLES, Settings, decided, reported
 
-NAME = "identities"
+NAME = Command.IDENTITIES
 #: irradiance of the light 1 + 2 cos(theta): pi a + 2 pi b / 3 with a = 1, b = 2
 IRRADIANCE = math.pi + 4.0 * math.pi / 3.0
 

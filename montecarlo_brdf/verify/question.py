@@ -20,7 +20,7 @@ from montecarlo_brdf.estimate.plan import (
 )
 from montecarlo_brdf.judge.claim import Claim
 from montecarlo_brdf.judge.decide import decide
-from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.supervision import Deadline, supervised
@@ -115,7 +115,7 @@ class Question(NamedTuple):
 
 
 def answered(
-    command: str, told: dict[str, Any], questions: Sequence[Question], plan: Plan, count: int,
+    command: Command, told: dict[str, Any], questions: Sequence[Question], plan: Plan, count: int,
     progress: Progress | None = None,
 ) -> Report:  # fmt: skip
     """The report of questions, one after another; count: about how many claims each has."""
@@ -159,7 +159,7 @@ def judged(
 
 
 def reported(
-    command: str, settings: dict[str, Any], results: list[Result], started: float,
+    command: Command, settings: dict[str, Any], results: list[Result], started: float,
     times: Sequence[float] = (),
 ) -> Report:  # fmt: skip
     """A finished report; how long it, and each result, took lies outside `results`."""
@@ -181,7 +181,7 @@ def merged(reports: Sequence[Report]) -> Report:
     return Report(first.command, first.settings, results, measured)
 
 
-def failed(command: str, model: str, error: ModelError) -> Report:
+def failed(command: Command, model: str, error: ModelError) -> Report:
     """The report on a model that does not run, among others that do."""
     told = Finding(command, {}, Verdict.ERROR, note=str(error))
     measured = {"seconds": 0.0, INTERRUPTED: False}

@@ -11,7 +11,7 @@ from typing import Any
 
 from montecarlo_brdf.estimate.plan import Plan, Progress
 from montecarlo_brdf.judge.claim import Claim, Exact, ExactClaim, Kind, Reference
-from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import Bound, Command, Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Property
 from montecarlo_brdf.report.text import place
 from montecarlo_brdf.scene import claims as scene_claims
@@ -66,7 +66,7 @@ def radiance(
     view = {"theta_o_deg": [*scene.view.theta_o_deg], "phi_o_deg": [*scene.view.phi_o_deg]}
     told = {**view, "skip": skip, "tolerance": tolerance, "plan": explained(plan, settings.plan)}
     result = Result(scene.name, {}, "radiance", _with_reading(scene, findings))
-    return reported("radiance", {**told, **settings.told()}, [result], started)
+    return reported(Command.RADIANCE, {**told, **settings.told()}, [result], started)
 
 
 def _claims(

@@ -16,7 +16,7 @@ from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.errors import ModelError, TooSlow
 from montecarlo_brdf.estimate.plan import Plan, Progress, check_theta
-from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model, Property
 from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.question import (
@@ -94,7 +94,7 @@ def run(
     results = [task.result(why) for group in groups for task in group]
     _raise_if_nothing_ran(results)
     times = [task.seconds for group in groups for task in group]
-    report = reported("run", told, results, started, times)
+    report = reported(Command.RUN, told, results, started, times)
     report.measured["interrupted"] = interrupted
     return report
 

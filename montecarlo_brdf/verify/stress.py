@@ -10,7 +10,7 @@ from montecarlo_brdf.arithmetic.types import ladder, precision
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.plan import Plan, Progress
 from montecarlo_brdf.judge.decide import decide
-from montecarlo_brdf.judge.finding import Report, Result
+from montecarlo_brdf.judge.finding import Command, Report, Result
 from montecarlo_brdf.model import Model, channels
 from montecarlo_brdf.stability import designed
 from montecarlo_brdf.stability.claims import claims
@@ -54,7 +54,7 @@ def stress(
         found.append((model, many))
     results = [result(model, many, tuple(precisions or PROMISED)) for model, many in found]
     told = {"precisions": [one.name for one in asked], "max_error": max_error, "quick": quick}
-    report = reported("stress", told, results, started)
+    report = reported(Command.STRESS, told, results, started)
     report.measured["precisions"] = [[_numbers(one) for one in many] for _, many in found]
     return report
 

@@ -13,7 +13,7 @@ from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.judge import mean as judging
 from montecarlo_brdf.judge.claim import Kind, MeanClaim, Reference
 from montecarlo_brdf.judge.decide import LEVEL, decide
-from montecarlo_brdf.judge.finding import Finding, Report, Result, worst
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, worst
 from montecarlo_brdf.judge.mean import (
     CONFIRMING_REPLICATES,
     FIRST_LOOK,
@@ -278,7 +278,7 @@ def test_what_is_resolved_of_the_same_f_is_what_the_sampler_resolves(kind: Kind,
 
 def report(*verdicts: str) -> Report:
     findings = [Finding("A", {}, v, level=1e-9) for v in verdicts]
-    return Report("furnace", {}, [Result("m", {}, "furnace", findings)])
+    return Report(Command.FURNACE, {}, [Result("m", {}, "furnace", findings)])
 
 
 @pytest.mark.parametrize(

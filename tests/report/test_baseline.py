@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result
 from montecarlo_brdf.report import baseline
 from montecarlo_brdf.report.json import read_report
 
@@ -16,7 +16,7 @@ def report(*verdicts: str, theta: float = 0.0, command: str = "run") -> Report:
     """A report with one finding per verdict."""
     findings = [Finding("A", {"theta_o_deg": theta + k}, v) for k, v in enumerate(verdicts) if v]
     results = [Result("m", {"f0": (1.0, 0.5)}, "furnace", findings)]
-    return Report(command, {}, results)
+    return Report(Command(command), {}, results)
 
 
 def again(one: Report, folder: Path) -> Report:

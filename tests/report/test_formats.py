@@ -15,7 +15,7 @@ import pytest
 from conftest import Outcome
 from junit_rules import RULES, faults
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result
 from montecarlo_brdf.report import formats
 
 PLACE = {"theta_o_deg": 45.0}
@@ -47,13 +47,13 @@ def report(**settings: object) -> Report:
         Result("", {}, "identities", [finding("pass")]),
         Result("empty", {}, "furnace", []),
     ]
-    return Report("run", {"seed": 0, "points": "sobol", "samples": 1024, **settings}, rows)
+    return Report(Command.RUN, {"seed": 0, "points": "sobol", "samples": 1024, **settings}, rows)
 
 
 @pytest.mark.parametrize("name", formats.SUFFIXES)
 def test_formats_are_pure(name: str) -> None:
     assert formats.render(report(), name) == formats.render(report(), name) != ""
-    assert formats.render(Report("run", {}, []), name)
+    assert formats.render(Report(Command.RUN, {}, []), name)
 
 
 def junit(one: Report) -> ElementTree.Element:
@@ -94,7 +94,7 @@ def test_junit_counts_and_names() -> None:
 def test_junit_calls_a_worst_case_the_same_wherever_it_was_found() -> None:
     def names(*angles: float) -> list[str | None]:
         found = [Finding("A", {"theta_o_deg": a}, "pass") for a in angles]
-        suite = junit(Report("run", {}, [Result("m", {}, "c", found)]))[0]
+        suite = junit(Report(Command.RUN, {}, [Result("m", {}, "c", found)]))[0]
         return [test.get("name") for test in suite.iter("testcase")]
 
     assert names(12.5) == names(80.0) == ["A"]
@@ -109,7 +109,7 @@ def test_junit_follows_the_policy_for_inconclusive(policy: str, tag: str) -> Non
 
 def test_junit_says_why_nothing_was_evaluated() -> None:
     late = Finding("furnace", {}, "inconclusive", note="not begun: --max-time was over")
-    root = junit(Report("run", {}, [Result("ggx", {}, "furnace", [late])]))
+    root = junit(Report(Command.RUN, {}, [Result("ggx", {}, "furnace", [late])]))
     assert next(root.iter("error")).get("message") == late.note
 
 
@@ -137,7 +137,7 @@ def test_github_shows_the_worst_first_and_on_its_function() -> None:
     failing = [finding("fail", hint=NASTY), finding("fail"), finding("pass")]
     checks = {"energy": [finding("known")], "pdf": failing, "sampling": failing}
     rows = [Result("my.py", {}, name, found, [], source) for name, found in checks.items()]
-    *commands, _ = formats.render(Report("run", {}, rows), "github").splitlines()
+    *commands, _ = formats.render(Report(Command.RUN, {}, rows), "github").splitlines()
     told = [decoded(c) for c in commands]
     assert [(level, place["line"]) for level, place, _ in told] == [
         ("error", "20"), ("error", "12"), ("notice", "7")

@@ -16,12 +16,12 @@ from typing import Any
 import pytest
 from conftest import Outcome
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verdict
 from montecarlo_brdf.report import formats, html
 from montecarlo_brdf.report.json import read_report
 
 html5lib = pytest.importorskip("html5lib")
-Command = Callable[..., Outcome]
+Call = Callable[..., Outcome]
 EVIL = "<script>alert(1)</script>.py"
 MISSING_PI = "from typing import NamedTuple\nclass Params(NamedTuple):\n    c: float = 0.5\n"
 MISSING_PI += "scales_with = 'c'\n\ndef f(wo, wi, p):\n    return p.c  # <b>&amp;</b>\n"
@@ -80,17 +80,17 @@ def test_everything_is_escaped() -> None:
     evil = Finding(EVIL, {EVIL: EVIL}, Verdict.FAIL, note=EVIL, hint=EVIL, reproduce=EVIL)
     source = {"file": EVIL, "line": 1}
     result = Result(EVIL, {EVIL: EVIL}, EVIL, [evil, *many(3)], [], source)
-    for command in ("run", "furnace", EVIL):
+    for command in (Command.RUN, Command.FURNACE):
         report = Report(command, {EVIL: EVIL}, [result], {"sources": {EVIL: f"{EVIL}\n</style>"}})
         page = formats.render(report, "html")
         assert faults(page) == [] and page.count("<script>") == 1 and EVIL in text_of(page)
 
 
-DRAWN = pytest.param("furnace", marks=pytest.mark.slow)
+DRAWN = pytest.param(Command.FURNACE, marks=pytest.mark.slow)
 
 
-@pytest.mark.parametrize("command", ["run", DRAWN, "compare"])
-def test_ten_thousand_findings(command: str) -> None:
+@pytest.mark.parametrize("command", [Command.RUN, DRAWN, Command.COMPARE])
+def test_ten_thousand_findings(command: Command) -> None:
     findings = [*many(9_999), *many(1, Verdict.FAIL)]
     report = Report(command, {"seed": 0}, [Result("my.py", {"a": 0.5}, "furnace", findings)])
     page = html.render(report)
@@ -102,14 +102,14 @@ def test_ten_thousand_findings(command: str) -> None:
 def test_values_that_are_no_numbers() -> None:
     odd = [Finding("A", {"theta_o_deg": 0.0}, Verdict.FAIL, value=v, stderr=math.nan, expected=1.0,
                    tolerance=1e-3, samples=4) for v in (math.nan, math.inf, -math.inf)]  # fmt: skip
-    for command in ("run", "furnace", "radiance", "converge"):
+    for command in (Command.RUN, Command.FURNACE, Command.RADIANCE, Command.CONVERGE):
         report = Report(command, {}, [Result("m", {}, "furnace", odd)], {})
         assert faults(html.render(report)) == []
-    assert faults(html.render(Report("run", {}, []))) == []
+    assert faults(html.render(Report(Command.RUN, {}, []))) == []
 
 
 def test_the_page_of_a_failing_model(
-    cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("my <b>.py").write_text(MISSING_PI, encoding="utf-8")
@@ -130,7 +130,7 @@ def test_the_page_of_a_failing_model(
 
 
 def test_several_reports_make_one_page(
-    cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert cli("furnace", "--model", "lambert", "--theta-o", 0, "--export", "a.json").code == 0
@@ -149,7 +149,7 @@ def test_several_reports_make_one_page(
     assert "reads schema" in cli("report", "old.json", "-o", "x.html").err
 
 
-def test_pages_of_other_commands(cli: Command, tmp_path: Path) -> None:
+def test_pages_of_other_commands(cli: Call, tmp_path: Path) -> None:
     for line in (
         "stress --model lambert --quick", "converge --model lambert --sampler cosine",
         "radiance --model lambert --environment cosine:2 --theta-o 0,60", "compare lambert eon",
@@ -160,7 +160,7 @@ def test_pages_of_other_commands(cli: Command, tmp_path: Path) -> None:
 
 
 def test_sources_in_other_encodings(
-    cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     text = "# -*- coding: latin-1 -*-\n# gr\u00f6\u00dfe\ndef f(wo, wi, p):\n    return 0.1\n"
@@ -174,7 +174,7 @@ BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
 
 @pytest.mark.slow
 @pytest.mark.skipif(not BROWSER, reason="no Chromium")
-def test_a_browser_opens_it_without_a_word(cli: Command, tmp_path: Path) -> None:
+def test_a_browser_opens_it_without_a_word(cli: Call, tmp_path: Path) -> None:
     page = tmp_path / "page.html"
     cli("run", "--model", "lambert_unnormalised", "--check", "furnace", "--export", page)
     flags = ("--headless=new", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--v=0")
@@ -190,7 +190,7 @@ def test_a_browser_opens_it_without_a_word(cli: Command, tmp_path: Path) -> None
 
 
 @pytest.mark.slow
-def test_the_page_of_all_models_is_small(cli: Command, tmp_path: Path) -> None:
+def test_the_page_of_all_models_is_small(cli: Call, tmp_path: Path) -> None:
     page = tmp_path / "all.html"
     assert cli("run", "--model", "all", "--effort", 0.03, "--export", page).code in (0, 3)
     assert page.stat().st_size < 6_000_000 and faults(page.read_text(encoding="utf-8")) == []

@@ -13,12 +13,12 @@ import pytest
 from conftest import Outcome
 
 from montecarlo_brdf import loading
-from montecarlo_brdf.judge.finding import Bound, Finding, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import Bound, Command, Finding, Report, Result, Verdict
 from montecarlo_brdf.report import formats
 
 jsonschema = pytest.importorskip("jsonschema")
 ROOT = Path(__file__).parents[2]
-Command = Callable[..., Outcome]
+Call = Callable[..., Outcome]
 RAISES = "def f(wo, wi, p):\n    if wi[2] < 0.4:\n        raise ValueError('low')\n    return 0.1\n"
 
 #: commands of every kind, and the exit codes that they may have
@@ -35,7 +35,7 @@ LINES = {
 
 
 @pytest.fixture
-def schema(cli: Command) -> dict[str, Any]:
+def schema(cli: Call) -> dict[str, Any]:
     found: dict[str, Any] = json.loads(cli("schema").out)
     jsonschema.Draft202012Validator.check_schema(found)
     return found
@@ -43,7 +43,7 @@ def schema(cli: Command) -> dict[str, Any]:
 
 @pytest.mark.parametrize("line", LINES)
 def test_reports_follow_the_schema(
-    line: str, schema: dict[str, Any], cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    line: str, schema: dict[str, Any], cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("raises.py").write_text(RAISES)
@@ -63,7 +63,7 @@ DAMAGES: list[Callable[[dict[str, Any]], object]] = [
 
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_the_schema_sees_what_is_no_report(
-    damage: Callable[[dict[str, Any]], object], schema: dict[str, Any], cli: Command
+    damage: Callable[[dict[str, Any]], object], schema: dict[str, Any], cli: Call
 ) -> None:
     line = ("furnace", "--model", "lambert", "--theta-o", 0)
     report = json.loads(cli(*line, "--format", "json").out)
@@ -84,7 +84,7 @@ def test_sarif() -> None:
         Result("ggx", {}, "furnace", [failing(Verdict.PASS)]),
         Result("", {}, "identities", [failing(Verdict.INCONCLUSIVE)]),
     ]
-    found = json.loads(formats.render(Report("run", {}, rows), "sarif"))
+    found = json.loads(formats.render(Report(Command.RUN, {}, rows), "sarif"))
     (run,) = found["runs"]
     rules = run["tool"]["driver"]["rules"]
     assert found["version"] == "2.1.0" and run["tool"]["driver"]["name"] == "brdf-check"
@@ -96,7 +96,7 @@ def test_sarif() -> None:
     assert "A <= 1: found 1.5(0)" in run["results"][0]["message"]["text"]
 
 
-def test_junit_tells_how_long_it_took(cli: Command) -> None:
+def test_junit_tells_how_long_it_took(cli: Call) -> None:
     out = cli("run", "--model", "lambert", "--check", "furnace,energy", "--format", "junit").out
     root = ElementTree.fromstring(out)
     (suite,) = root
@@ -105,7 +105,7 @@ def test_junit_tells_how_long_it_took(cli: Command) -> None:
     assert sum(cases) == pytest.approx(float(suite.get("time", "")), abs=1e-3 * len(cases))
 
 
-def test_models_for_programs(cli: Command) -> None:
+def test_models_for_programs(cli: Call) -> None:
     found = {m["name"]: m for m in json.loads(cli("models", "--format", "json").out)}
     assert [*found] == loading.names()
     assert found["lambert"]["parameters"]["albedo"] == {"default": 0.8, "domain": [0.0, 1.0]}
@@ -115,12 +115,12 @@ def test_models_for_programs(cli: Command) -> None:
     assert all(any(name in line.split() for line in shown) for name in loading.names())
 
 
-def test_quiet_leaves_the_verdict(cli: Command) -> None:
+def test_quiet_leaves_the_verdict(cli: Call) -> None:
     out = cli("furnace", "--model", "lambert", "--theta-o", 0, "--quiet").out
     assert out.count("\n") == 1 and out.startswith("PASS  2 pass")
 
 
-def test_doctor(cli: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_doctor(cli: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     outcome = cli("doctor")
     for name in ("numba", "python", "processor", "threads", "cache", "mpmath"):
         assert any(line.startswith(f"{name} ") for line in outcome.out.splitlines()), name
@@ -132,7 +132,7 @@ def test_doctor(cli: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -
 
 
 def test_examples_are_there(
-    cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert "cook_torrance.toml" in cli("examples").out
@@ -143,7 +143,7 @@ def test_examples_are_there(
     assert again.code == 2 and "lambert.toml" in again.err
 
 
-def test_pages_are_there(cli: Command) -> None:
+def test_pages_are_there(cli: Call) -> None:
     listed = [line.split()[0] for line in cli("docs").out.splitlines()]
     assert listed == sorted(p.stem for p in (ROOT / "docs").glob("*.md"))
     shipped = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -154,7 +154,7 @@ def test_pages_are_there(cli: Command) -> None:
 
 
 def test_a_project_to_begin_with(
-    cli: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("test_brdf.py").write_text("mine\n")
@@ -180,7 +180,7 @@ def test_a_project_to_begin_with(
     ],
 )
 def test_values_are_completed(
-    words: str, last: str, expected: str, cli: Command, monkeypatch: pytest.MonkeyPatch
+    words: str, last: str, expected: str, cli: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from click.shell_completion import ShellComplete
 

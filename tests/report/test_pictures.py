@@ -17,12 +17,12 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from PIL import Image
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verdict
 from montecarlo_brdf.report import bench
 from montecarlo_brdf.report.pictures import albedo, convergence, margins, radiance, spheres
 from montecarlo_brdf.report.pictures import stability as heat
 
-Command = Callable[..., Outcome]
+Call = Callable[..., Outcome]
 CLOSE = 1.0  # pixels that texts may share
 
 
@@ -109,7 +109,7 @@ SLOW = ("nine", "60 models")
     "name", [pytest.param(n, marks=[pytest.mark.slow] if n in SLOW else []) for n in FURNACES]
 )
 def test_a_furnace(name: str) -> None:
-    figure = albedo.figure(Report("furnace", {}, FURNACES[name]))
+    figure = albedo.figure(Report(Command.FURNACE, {}, FURNACES[name]))
     assert faults(figure) == []
     words = " ".join(" ".join(t.split()) for t, _ in texts(figure))
     models = [r.model for r in FURNACES[name]]
@@ -123,7 +123,7 @@ def test_a_furnace(name: str) -> None:
 
 
 def test_every_series_has_a_mark_of_its_own() -> None:
-    figure = albedo.figure(Report("furnace", {}, FURNACES["colours"]))
+    figure = albedo.figure(Report(Command.FURNACE, {}, FURNACES["colours"]))
     drawn = [(line.get_color(), line.get_marker()) for line in figure.axes[0].lines]
     marked = [mark for mark in drawn if mark[1] not in ("None", "", " ", "_", "|")]
     assert len({*marked}) == 3 and len({colour for colour, _ in marked}) == 3
@@ -135,7 +135,8 @@ def test_a_scene() -> None:
                 stderr=1e-5, expected=0.1 * c + 0.1, tolerance=1e-3, samples=64)
         for c in range(3) for t in (0.0, 30.0, 60.0, 85.0)
     ]  # fmt: skip
-    figure = radiance.figure(Report("radiance", {}, [Result("a scene " * 20, {}, "L_o", found)]))
+    result = Result("a scene " * 20, {}, "L_o", found)
+    figure = radiance.figure(Report(Command.RADIANCE, {}, [result]))
     assert faults(figure) == []
     words = " ".join(t for t, _ in texts(figure))
     assert "dashed: tolerance" in words and "dash above: truth" in words
@@ -159,7 +160,8 @@ def test_convergence(count: int) -> None:
     sets = ("independent", "stratified", "sobol", "lattice")
     found = [curve(s, p, 0.1, -0.5) for s in samplers for p in sets[:3]]
     found += [curve(s, "lattice", 0.0, math.nan) for s in samplers]
-    report = Report("converge", {"theta_o_deg": 60.0}, [Result("my.py", LONG, "converge", found)])
+    result = Result("my.py", LONG, "converge", found)
+    report = Report(Command.CONVERGE, {"theta_o_deg": 60.0}, [result])
     figure = convergence.figure(report)
     assert faults(figure) == []
     words = " ".join(t for t, _ in texts(figure))
@@ -174,10 +176,10 @@ def test_checks_against_their_tolerances() -> None:
 
     rows = [one("furnace", 1.0, Verdict.PASS), one("energy", 40.0, Verdict.FAIL)]
     rows += [one("a check with a name that is longer than any " + "x" * 60, 1.2, Verdict.KNOWN)]
-    figure = margins.figure(Report("run", {}, rows))
+    figure = margins.figure(Report(Command.RUN, {}, rows))
     assert faults(figure) == [] and {"pass", "fail", "known"} <= {t for t, _ in texts(figure)}
     many = [one(f"check {k}", math.nan, Verdict.FAIL) for k in range(100)]
-    assert faults(margins.figure(Report("run", {}, many))) == []
+    assert faults(margins.figure(Report(Command.RUN, {}, many))) == []
 
 
 def test_stability_shows_each_precision_in_its_own_roundings() -> None:
@@ -186,14 +188,14 @@ def test_stability_shows_each_precision_in_its_own_roundings() -> None:
     measured = [{"name": n, "parameter": "alpha", "eps": e} for n, e in names.items()]
     curves = [points, [(t, a, 1e-17) for t, a, _ in points]]
     result = Result("ggx", {}, "stability", [], curves)
-    figure = heat.figure(Report("stress", {}, [result], {"precisions": [measured]}))
+    figure = heat.figure(Report(Command.STRESS, {}, [result], {"precisions": [measured]}))
     assert faults(figure) == []
     grids = [a.collections[0].get_array() for a in figure.axes[:2]]
     assert grids[0].max() > 10.0 and grids[1].max() == heat.LEAST
     assert "no error above one rounding" in " ".join(t for t, _ in texts(figure))
 
 
-def test_pictures_of_commands(cli: Command, tmp_path: Path) -> None:
+def test_pictures_of_commands(cli: Call, tmp_path: Path) -> None:
     for k, line in enumerate((
         "run --model lambert --check furnace,energy", "compare lambert eon", "identities",
     )):  # fmt: skip
@@ -203,7 +205,7 @@ def test_pictures_of_commands(cli: Command, tmp_path: Path) -> None:
         assert picture.read_bytes() == again.read_bytes() != b""
 
 
-def test_a_benchmark_is_drawn_again(cli: Command, tmp_path: Path) -> None:
+def test_a_benchmark_is_drawn_again(cli: Call, tmp_path: Path) -> None:
     data, one, two = (tmp_path / name for name in ("t.json", "a.svg", "b.svg"))
     line = ("bench", "--model", "lambert", "--quick", "--method", "cosine x sobol,uniform x sobol")
     assert cli(*line, "--export", data, "--plot", one).code == 0
@@ -249,7 +251,7 @@ def test_edges_are_soft_and_numbers_are_not() -> None:
     assert abs(soft.mean() - area) < abs(0.0005)
 
 
-def test_exposure_brightens_a_picture(cli: Command, tmp_path: Path) -> None:
+def test_exposure_brightens_a_picture(cli: Call, tmp_path: Path) -> None:
     line = ("render", "--model", "lambert", "--environment", "constant:0.05", "--size", 16)
     means = []
     for stops in (0, 2):

@@ -11,9 +11,9 @@ import pytest
 from conftest import Outcome
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.judge.finding import SEVERITY, Finding, Report, Result
+from montecarlo_brdf.judge.finding import SEVERITY, Command, Finding, Report, Result
 
-Command = Callable[..., Outcome]
+Call = Callable[..., Outcome]
 
 NUMBER = (int, float)
 #: name -> type of a report's members
@@ -108,12 +108,12 @@ def test_results_have_no_timings(report: Report) -> None:
 def test_numbers_that_json_has_no_name_for_become_null() -> None:
     finding = Finding("A", {"theta_o_deg": 0.0}, "fail", value=math.nan, stderr=math.inf)
     odd = Result("m", {"a": (1.0, math.inf)}, "furnace", [finding])
-    (result,) = strict(Report("furnace", {}, [odd]).to_json())["results"]
+    (result,) = strict(Report(Command.FURNACE, {}, [odd]).to_json())["results"]
     assert result["findings"][0]["value"] is None and result["findings"][0]["stderr"] is None
     assert result["params"]["a"] == [1.0, None]
 
 
-def test_export_is_what_format_json_prints(cli: Command, tmp_path: Path) -> None:
+def test_export_is_what_format_json_prints(cli: Call, tmp_path: Path) -> None:
     path = tmp_path / "report.json"
     lambert = ("furnace", "--model", "lambert", "--theta-o", "0,60", "--sampler", "cosine")
     outcome = cli(*lambert, "--export-json", path, "--format", "json")
@@ -122,7 +122,7 @@ def test_export_is_what_format_json_prints(cli: Command, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("kind", ["png", "svg", "pdf"])
-def test_plot_draws_the_same_picture_again(kind: str, cli: Command, tmp_path: Path) -> None:
+def test_plot_draws_the_same_picture_again(kind: str, cli: Call, tmp_path: Path) -> None:
     """furnace --plot and plot REPORT.json give the same file but for a PDF's date."""
     one, two, export = (tmp_path / name for name in (f"one.{kind}", f"two.{kind}", "report.json"))
     arguments = ("--theta-o", "0,60", "--export-json", export, "--plot", one)
@@ -144,7 +144,7 @@ def test_the_picture_shows_albedo_reference_and_error(report: Report) -> None:
     assert any("reference" in text for text in labels) and any("stderr" in text for text in labels)
 
 
-def test_text_shows_verdict_estimate_and_false_alarm_rate(cli: Command) -> None:
+def test_text_shows_verdict_estimate_and_false_alarm_rate(cli: Call) -> None:
     arguments = ("--theta-o", "60", "--sampler", "cosine", "-p", "c=0.5")
     out = cli("furnace", "--model", "lambert_unnormalised", *arguments).out
     lines = out.splitlines()
@@ -155,7 +155,7 @@ def test_text_shows_verdict_estimate_and_false_alarm_rate(cli: Command) -> None:
     assert "\x1b[" not in out
 
 
-def test_verbose_shows_every_estimator(cli: Command) -> None:
+def test_verbose_shows_every_estimator(cli: Call) -> None:
     quick = ("furnace", "--model", "lambert", "--theta-o", 0, "-v")
     out = cli(*quick).out
     for sampler in ("uniform", "cosine", "own"):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result
 from montecarlo_brdf.report import text
 from montecarlo_brdf.report.json import read_report
 
@@ -108,7 +108,7 @@ def test_a_place_where_nothing_happened_is_not_told() -> None:
 
     def shown(value: float) -> str:
         found = Finding("|f - f'|", place, "pass", "at most", value, **numbers)  # type: ignore[arg-type]
-        return text.render(Report("run", {}, [Result("m", {}, "reciprocity", [found])]))
+        return text.render(Report(Command.RUN, {}, [Result("m", {}, "reciprocity", [found])]))
 
     assert "theta_o" not in shown(0.0) and "theta_o 30°" in shown(1e-7)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from conftest import Outcome
 
-from montecarlo_brdf.judge.finding import Finding, Report, Result, Verdict
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verdict
 from montecarlo_brdf.report import text
 
 MISSING = "A / c = pi: the factor 1/pi is missing"
@@ -27,7 +27,7 @@ def test_a_sentence_is_said_once_with_all_it_is_about() -> None:
     second = "4096 draws without a pdf (first at u = (0.125, 1e-05, 0.5))"
     rows = [failing("furnace", MISSING, MISSING), failing("energy", MISSING)]
     rows += [failing("pdf", first, second)]
-    lines = text.render(Report("run", {}, rows)).splitlines()
+    lines = text.render(Report(Command.RUN, {}, rows)).splitlines()
     told = [line for line in lines if line.startswith(("  hint", "  repro"))]
     assert told == [
         f"  hint  furnace, energy: {MISSING} (2 places)",
@@ -73,5 +73,5 @@ def test_what_is_safe_nowhere_is_no_number() -> None:
         "safe": math.nan, "length": None,
     }  # fmt: skip
     rows = [Result("m", {}, "stability", [lost])]
-    out = text.render(Report("stress", {}, rows, {"precisions": [[measured]]}))
+    out = text.render(Report(Command.STRESS, {}, rows, {"precisions": [[measured]]}))
     assert "float16: smallest safe alpha: none is safe" in out and "nan" not in out

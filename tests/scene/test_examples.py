@@ -10,7 +10,7 @@ import pytest
 from scenes import EXAMPLES, estimates, written
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.judge.finding import Command, Finding, Report, Result
 from montecarlo_brdf.references import _irradiance
 from montecarlo_brdf.report.pictures.radiance import _headroom, figure
 from montecarlo_brdf.scene.radiance import value_of
@@ -158,6 +158,7 @@ def test_spectrum_and_band(cli: Callable[..., Any], tmp_path: Path) -> None:
 
 def test_the_picture_hides_no_point() -> None:
     row = Finding("L_o", {"theta_o_deg": 30.0}, "pass", value=0.5, expected=0.5, stderr=1e-6)
-    top, bottom = figure(Report("radiance", {}, [Result("lambert", {}, "radiance", [row])])).axes
+    result = Result("lambert", {}, "radiance", [row])
+    top, bottom = figure(Report(Command.RADIANCE, {}, [result])).axes
     assert top.get_ylim()[1] > 0.5 and bottom.get_legend() is None
     assert _headroom([0.0]) > 0.0  # a black surface has an axis too

@@ -75,12 +75,12 @@ def test_infinite_errors_are_the_worst_of_a_heat_map() -> None:
 
 
 def test_a_heat_map_has_a_cell_per_angle_and_value_and_names_the_parameter() -> None:
-    from montecarlo_brdf.judge.finding import Report, Result
+    from montecarlo_brdf.judge.finding import Command, Report, Result
     from montecarlo_brdf.report.pictures.stability import figure
 
     points = [(theta, value, 1e-6) for theta in (0.0, 60.0, 89.99) for value in (1e-4, 0.3)]
     measured = {"precisions": [[{"name": "float32", "parameter": "alpha", "eps": 6e-8}]]}
-    report = Report("stress", {}, [Result("m", {}, "stability", [], [points])], measured)
+    report = Report(Command.STRESS, {}, [Result("m", {}, "stability", [], [points])], measured)
     axes = figure(report).axes[0]
     assert axes.get_ylabel() == "alpha" and axes.get_title() == "m, float32"
     assert [t.get_text() for t in axes.get_xticklabels()] == ["90", "30", "0.01"]

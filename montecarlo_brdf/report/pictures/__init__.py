@@ -8,16 +8,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from montecarlo_brdf.errors import UserError
-from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.judge.finding import Command, Report
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 KINDS = ("png", "svg", "pdf")
 #: command -> the module beside this one whose `figure(report)` draws its reports
-FIGURES = {"converge": "convergence", "furnace": "albedo"}
-FIGURES |= {"radiance": "radiance", "stress": "stability"}
-FIGURES |= dict.fromkeys(("compare", "identities", "run"), "margins")
+FIGURES = {Command.CONVERGE: "convergence", Command.FURNACE: "albedo"}
+FIGURES |= {Command.RADIANCE: "radiance", Command.STRESS: "stability"}
+FIGURES |= dict.fromkeys((Command.COMPARE, Command.IDENTITIES, Command.RUN), "margins")
 
 
 class CannotDraw(UserError):
