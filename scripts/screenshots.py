@@ -21,8 +21,8 @@ MODEL += "domain = {'albedo': (0.0, 1.0)}\nscales_with = 'albedo'\n\n"
 MODEL += "def f(wo, wi, p):\n    return p.albedo\n"
 #: name -> the command, the height of the page at each width
 PAGES = {
-    "model": ("run --model first.py", {1400: 1500, 500: 1800}),
-    "scene": (f"radiance {ROOT / 'examples' / 'lambert_without_pi.toml'}", {1400: 1300, 500: 1500}),
+    "model": ("run --model first.py", {1400: 1500, 400: 1800}),
+    "scene": (f"radiance {ROOT / 'examples' / 'lambert_without_pi.toml'}", {1400: 1300, 400: 1500}),
 }
 COLOURS = 64  # enough for text and lines
 

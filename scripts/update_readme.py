@@ -17,7 +17,7 @@ from pathlib import Path
 from montecarlo_brdf.foreign import translation, wheel
 
 ROOT = Path(__file__).parent.parent
-PAGES = (ROOT / "README.md", ROOT / "docs" / "tutorial.md")
+PAGES = tuple(ROOT / n for n in ("README.md", "docs/tutorial.md", "docs/own_model.md"))
 BLOCK = re.compile(r"(<!-- (run|commands):? ?(.*?) ?-->\n)(.*?)(<!-- end -->)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n```\w*\n(.*?)```", re.DOTALL)
 #: An estimate and the spaces after it: the last digits are those of the machine.

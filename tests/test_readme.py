@@ -46,6 +46,22 @@ def test_the_tutorial_says_what_it_says(script: ModuleType) -> None:
         assert words in page
 
 
+@pytest.mark.parametrize("name", ["tutorial", "own_model"])
+def test_all_code_of_a_page_is_run(name: str) -> None:
+    """Each block is a file that the runs beside it use, or such a run."""
+    page = (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
+    files = re.findall(r"<!-- file: (\S+) -->\n```", page)
+    runs = re.findall(r"<!-- run: (.*) -->\n```console\n", page)
+    assert page.count("```") == 2 * (len(files) + len(runs))
+    assert all(any(file in run for run in runs) for file in files)
+
+
+def test_the_page_on_models_is_fresh(script: ModuleType) -> None:
+    """If this fails: python scripts/update_readme.py"""
+    page = (ROOT / "docs" / "own_model.md").read_text(encoding="utf-8")
+    assert script.same(script.updated(page), page) and "symmetric but for a factor" in page
+
+
 def test_an_old_block_is_seen(script: ModuleType) -> None:
     old = "<!-- run: brdf-check --version -->\nsomething else\n<!-- end -->\n"
     new = script.updated(old)
