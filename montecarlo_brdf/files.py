@@ -17,6 +17,11 @@ def know_input(path: Path) -> None:
         _inputs.add(path.resolve())
 
 
+def inputs() -> set[Path]:
+    """All files that were read."""
+    return {*_inputs}
+
+
 def is_input(path: Path) -> bool:
     """Whether a file was read."""
     return path.resolve() in _inputs

@@ -151,7 +151,7 @@ def execute(arguments: list[str]) -> int:
     except SystemExit as done:  # completion's: no verdict
         return OutputError.exit_code if done.code else 0
     except Exception as error:
-        if sentence := _of_a_model(error):
+        if sentence := of_a_model(error):
             return _say(f"Error: {sentence}", ModelError.exit_code)
         if os.environ.get("BRDF_CHECK_DEBUG"):
             raise
@@ -160,7 +160,7 @@ def execute(arguments: list[str]) -> int:
     return code if isinstance(code, int) else 0
 
 
-def _of_a_model(error: Exception) -> str | None:
+def of_a_model(error: Exception) -> str | None:
     """'my_brdf.py raised KeyError (line 3)' if a user's file did, wherever it was called."""
     for frame in reversed(traceback.extract_tb(error.__traceback__)):
         if is_input(Path(frame.filename)):

@@ -355,6 +355,26 @@ plain_format = partial(
 plot = partial(click.option, "--plot", type=FILE, metavar="FILE")
 
 
+watch = partial(
+    click.option, "--watch", is_flag=True,
+    help="Go on: run again when the model's file changes, or what it imports or includes, and tell "
+    "what changed first; Ctrl-C ends with the last exit code.",
+)  # fmt: skip
+
+
+#: gathers a report, shows it to a function, delivers it; the exit code
+Answer = Callable[[Callable[[Report], None]], int]
+
+
+def answered(answer: Answer, watch: bool) -> int:
+    """The exit code of an answer, or with --watch of the last."""
+    if not watch:
+        return answer(lambda report: None)
+    from montecarlo_brdf.cli._watch import watched
+
+    return watched(answer)
+
+
 class Sampling(NamedTuple):
     """How to sample, as verify's questions take it."""
 

@@ -69,7 +69,7 @@ def progress(title: str) -> Iterator[Callable[[float], None]]:
     if why := folders.fault():
         slow = "everything is compiled anew each time"
         click.echo(f"Warning: cannot write to {folders.directory()} ({why}): {slow}", err=True)
-    if _quiet():
+    if quiet():
         yield lambda done: None
         return
     started = time.monotonic()
@@ -123,7 +123,7 @@ class _Words:
             self._timer.cancel()
 
 
-def _quiet() -> bool:
+def quiet() -> bool:
     """Whether nobody wants to hear how it goes: --quiet, or BRDF_CHECK_QUIET."""
     context = click.get_current_context(silent=True)
     asked = bool(context and context.params.get("quiet"))

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import functools
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 
 from montecarlo_brdf.cli import _options
 from montecarlo_brdf.cli._options import Read, finite, listed, models_of, parameter_sets
-from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.errors import ModelError, UserError
+from montecarlo_brdf.judge.finding import Report
 
 EPILOG = """\b
 Examples:
@@ -19,6 +21,7 @@ Examples:
   brdf-check furnace --model lambert -p albedo=0.9/0.5/0.1 --format json
   brdf-check furnace --model all
   brdf-check furnace --model ggx -p alpha=0.05 --target-error 1e-6
+  brdf-check furnace --model my_brdf.py --watch
 """
 
 
@@ -43,6 +46,7 @@ Examples:
 @click.option("--resume", type=_options.FILE, default=None, metavar="FILE",
               help="Keep partial sums in FILE, every ten seconds and at Ctrl-C, and go on from "
               "them: for billions of samples. [--resume sums.json]")  # fmt: skip
+@_options.watch()
 @_options.output_options
 @_options.plot(
     help="Albedo against angle with error bars and reference, as PNG, SVG or PDF. [--plot a.png]"
@@ -50,33 +54,51 @@ Examples:
 def command(
     spec: str, assignments: tuple[str, ...], theta_o: list[float], phi_o: float,
     sampler: str | list[str], target_error: float | None, method: str | None, resume: Path | None,
-    sampling: _options.Sampling, output: _options.Output,
+    watch: bool, sampling: _options.Sampling, output: _options.Output,
 ) -> int:  # fmt: skip
     """How much of a constant light 1 does the surface reflect, and is that what theory says?
 
     Two claims per angle: the albedo A equals its reference within the tolerance, and A <= 1. Each
     is estimated by every sampler that can be trusted for the case.
     """
+    from montecarlo_brdf.verify.furnace import partial_sums
+
+    if watch and resume:
+        raise UserError("give --watch or --resume, not both: sums of an f before an edit are lost")
+
+    def answer(show: Callable[[Report], None]) -> int:
+        with partial_sums(resume) as sums:
+            report = gather(
+                models_of(spec), assignments, output, theta_o_deg=theta_o, phi_o_deg=phi_o,
+                sampler=sampler, target_error=target_error, method=method, sums=sums,
+                **sampling.keywords(),
+            )  # fmt: skip
+        show(report)
+        return _options.deliver(report, output)
+
+    return _options.answered(answer, watch)
+
+
+def gather(
+    specs: Sequence[str], assignments: Sequence[str], output: _options.Output, **terms: Any
+) -> Report:
+    """One report over all models. terms: the rest of what `verify.furnace` takes."""
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.judge.finding import Command
-    from montecarlo_brdf.verify import furnace
+    from montecarlo_brdf.verify.furnace import furnace
     from montecarlo_brdf.verify.question import failed, merged, part_of
 
-    models, reports = [loading.load(one) for one in models_of(spec)], []
+    models, reports = [loading.load(one) for one in specs], []
     output.check()
-    with furnace.partial_sums(resume) as sums, progress("furnace") as update:
+    with progress("furnace") as update:
         for k, model in enumerate(models):
-            ask = functools.partial(
-                furnace.furnace, model, parameter_sets(model, assignments), theta_o,
-                phi_o_deg=phi_o, sampler=sampler, target_error=target_error, method=method,
-                progress=part_of(update, k, len(models)), curve=output.draws(), sums=sums,
-                **sampling.keywords(),
-            )  # fmt: skip
+            part = part_of(update, k, len(models))
+            sets = parameter_sets(model, assignments)
             try:
-                reports.append(ask())
+                reports.append(furnace(model, sets, progress=part, curve=output.draws(), **terms))
             except ModelError as error:
                 if len(models) == 1:
                     raise
                 reports.append(failed(Command.FURNACE, model.name, error))
-    return _options.deliver(merged(reports), output)
+    return merged(reports)

@@ -4,7 +4,7 @@ from __future__ import annotations
 import functools
 import gc
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -42,6 +42,7 @@ Examples:
   brdf-check run --model ggx
   brdf-check run --model my_brdf.py -p alpha=0.05:1:log5 --check energy,reciprocity
   brdf-check run --model my_ggx.py --against ggx --max-time 10
+  brdf-check run --model my_brdf.py --watch
   brdf-check run --model all
   brdf-check run                      (all that brdf-check.toml names)
 """
@@ -72,6 +73,7 @@ Examples:
 @click.option("--baseline", type=_options.FILE, metavar="REPORT.json",
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
               "[--baseline main.json]")  # fmt: skip
+@_options.watch()
 @functools.partial(_options.sampling_options, allowed=_options.tolerances)
 @_options.output_options
 @_options.plot(help="How near every finding came to its tolerance, as PNG, SVG or PDF. "
@@ -79,14 +81,14 @@ Examples:
 def command(
     spec: str | None, assignments: tuple[str, ...], config: Path | None, names: str | list[str],
     theta_o: list[float], phi_o: float, against: str | None, max_time: float | None, effort: float,
-    require_coverage: bool, baseline: Path | None, sampling: _options.Sampling,
+    require_coverage: bool, baseline: Path | None, watch: bool, sampling: _options.Sampling,
     output: _options.Output,
 ) -> int:  # fmt: skip
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
     Without --model: the models and cases of the project's brdf-check.toml
     (brdf-check docs ci)."""
-    from montecarlo_brdf.cli._requests import Terms
+    from montecarlo_brdf.cli._requests import Project, Terms
     from montecarlo_brdf.files import know_input
     from montecarlo_brdf.report.json import read_report
     from montecarlo_brdf.verify.supervision import Deadline
@@ -98,26 +100,28 @@ def command(
         know_input(baseline)
     if spec and config:
         raise UserError("give --model or --config, not both: the file says what to check")
-    if spec:
-        keywords = sampling.keywords()
-        threads = keywords.pop("threads")
-        keywords |= tolerated(keywords.pop("tolerance"))
-        chosen = None if isinstance(names, str) else tuple(names)
-        terms = Terms(chosen, theta_o, phi_o, against, effort=effort, **keywords)
-        requests = asked_models(models_of(spec), assignments, terms)
-    else:
-        allowed = tolerated(sampling.tolerance)
-        given = {**sampling._asdict(), **allowed, "effort": effort}
-        project = asked_project(config, given)
-        requests, threads = project.requests, sampling.threads
-        max_time = max_time or project.max_time
-        output = output._replace(inconclusive=output.inconclusive or project.inconclusive)
-    output.check()
     if max_time is not None and not max_time > 0.0:
         raise UserError(f"max-time must be a positive number of seconds, not {max_time}")
-    report = gather(requests, threads, Deadline(math.inf if max_time is None else max_time))
-    report = covered(report) if require_coverage else report
-    return finish(report, output, earlier)
+    keywords = sampling.keywords()
+    threads = keywords.pop("threads")
+    keywords |= {**tolerated(keywords.pop("tolerance")), "effort": effort}
+
+    def answer(show: Callable[[Report], None]) -> int:
+        if spec:
+            chosen = None if isinstance(names, str) else tuple(names)
+            terms = Terms(chosen, theta_o, phi_o, against, **keywords)
+            project = Project(asked_models(models_of(spec), assignments, terms), None, None)
+        else:
+            project = asked_project(config, keywords)
+        policy = output.inconclusive or project.inconclusive
+        output.check()
+        limit = max_time or project.max_time or math.inf
+        report = gather(project.requests, threads, Deadline(limit))
+        report = covered(report) if require_coverage else report
+        show(report)
+        return finish(report, output._replace(inconclusive=policy), earlier)
+
+    return _options.answered(answer, watch)
 
 
 def tolerated(given: Mapping[str, float] | None) -> dict[str, Any]:

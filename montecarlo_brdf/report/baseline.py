@@ -44,12 +44,23 @@ def exit_code(found: list[Change]) -> int:
     return EXIT_CODES[Verdict(worst(c.now for c in found if c.now and c.kind in KINDS[:2]))]
 
 
+def moved(now: Report, before: Report) -> list[str]:
+    """What still needs attention and has another value."""
+    pairs = _matched(_listed(now), _listed(before))
+    return [
+        f"still {a.verdict}: {_called(a)}: {b.number} -> {a.number}"
+        for a, b in pairs
+        if a and b and a.verdict == b.verdict in BAD and a.number != b.number
+    ]
+
+
 class Row(NamedTuple):
     """One finding."""
 
     subject: tuple[str, str, str, str]  # model, parameters, check, quantity
     place: str
     verdict: Verdict
+    number: str = ""  # what was found
 
 
 def _listed(report: Report) -> list[Row]:
@@ -58,6 +69,7 @@ def _listed(report: Report) -> list[Row]:
             (r.model, repr(sorted(_plain(r.params).items())), r.check, f.quantity),
             " ".join(f"{k}={v}" for k, v in _plain(f.where).items()),
             Verdict(f.verdict),
+            f.number,
         )
         for r in report.results
         for f in r.findings
@@ -92,11 +104,15 @@ def _matched(now: list[Row], before: list[Row]) -> Iterator[tuple[Row | None, Ro
 def _change(now: Row | None, before: Row | None) -> Change | None:
     either = now or before
     assert either is not None  # a pair has at least one
-    model, _, check, quantity = either.subject
-    name = " ".join(filter(None, (model, check, quantity, either.place)))
     old, new = before.verdict if before else None, now.verdict if now else None
     kind = _kind(old, new)
-    return Change(kind, name, old, new) if kind else None
+    return Change(kind, _called(either), old, new) if kind else None
+
+
+def _called(row: Row) -> str:
+    """'my.py furnace A theta_o_deg=45.0'."""
+    model, _, check, quantity = row.subject
+    return " ".join(filter(None, (model, check, quantity, row.place)))
 
 
 def _kind(old: Verdict | None, new: Verdict | None) -> str | None:

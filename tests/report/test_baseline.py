@@ -69,3 +69,15 @@ def test_the_worst_comes_first() -> None:
 def test_reports_of_different_commands() -> None:
     with pytest.raises(UserError, match="report of furnace, this is one of run"):
         baseline.changes(report("pass"), report("pass", command="furnace"))
+
+
+def test_what_still_fails_by_another_value_is_told() -> None:
+    def of(value: float, verdict: str = "fail") -> Report:
+        found = [Finding("A", {"theta_o_deg": 0.0}, verdict, value=value, stderr=1e-3)]
+        return Report(Command.RUN, {}, [Result("m", {}, "furnace", found)])
+
+    assert baseline.moved(of(1.2), of(1.3)) == [
+        "still fail: m furnace A theta_o_deg=0.0: 1.3000(10) -> 1.2000(10)"
+    ]
+    assert baseline.moved(of(1.2), of(1.2)) == baseline.moved(of(0.7, "pass"), of(0.8, "pass")) == []
+    assert baseline.moved(of(1.2), of(0.9, "pass")) == []
