@@ -10,7 +10,8 @@ import click
 
 #: what is not always installed, and what it serves
 EXTRAS = {
-    "slangpy": "shaders as models", "watchfiles": "telling --watch of changes at once", "OpenEXR": "reading and writing .exr",
+    "slangpy": "shaders as models", "watchfiles": "telling --watch of changes",
+    "OpenEXR": "reading and writing .exr",
     "colour": "spectra and illuminants in scenes",
     "ml_dtypes": "bfloat16 in stress", "mpmath": "exact arithmetic in stress",
 }  # fmt: skip
