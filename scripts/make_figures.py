@@ -69,7 +69,9 @@ LAYERS = (
     ("judge", "claims become findings", "levels, looks, confirmation"),
     ("cases", "models, directions, parameters to look at", "search"),
     ("estimate", "quantity x direction: a number with its error bar", "statistics"),
+    ("arithmetic", "plain functions on arrays: any precision, and what turns", "rounding"),
     ("model, models", "f, sample, pdf and what is declared", "formulas"),
+    ("foreign", "a shader becomes the text of a model file", "GLSL, HLSL, Slang"),
     ("sampling", "points of the cube, ways to a direction", "hashes, maps"),
     ("compile", "templates with holes become machine code", "numba, llvmlite"),
 )
@@ -83,20 +85,22 @@ def house(path: Path) -> None:
     """The layers of the package, what goes down and what comes back."""
     import matplotlib.pyplot as plt
 
-    figure = plt.figure(figsize=(9.0, 6.4))
+    bottom = float(len(LAYERS))
+    figure = plt.figure(figsize=(9.0, 0.7 * bottom))
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    axes.set(xlim=(0.0, 9.0), ylim=(len(LAYERS) + 0.4, -0.4))
+    axes.set(xlim=(0.0, 9.0), ylim=(bottom + 0.4, -0.4))
     axes.axis("off")
     for k, (name, job, knows) in enumerate(LAYERS):
         _box(axes, (0.9, k, 5.2), name, job, style.SKY)
         axes.text(6.0, k + 0.28, knows, ha="right", va="center", fontsize=8, color=style.GREY)
     for name, job, y in ASIDE:
         _box(axes, (7.05, y, 1.8), name, job, style.ORANGE)
-    for x, word, ends in ((0.45, "ask", (0.1, 8.9)), (6.55, "plain data", (8.9, 0.1))):
+    down, up = (0.1, bottom - 0.1), (bottom - 0.1, 0.1)
+    for x, word, ends in ((0.45, "ask", down), (6.55, "plain data", up)):
         arrow = {"arrowstyle": "-|>", "color": style.BLACK, "linewidth": 1.5}
         axes.annotate("", xy=(x, ends[1]), xytext=(x, ends[0]), arrowprops=arrow)
         box = {"facecolor": "white", "edgecolor": "none", "pad": 3.0}
-        axes.text(x, 4.5, word, rotation=90, ha="center", va="center", fontsize=11, bbox=box)
+        axes.text(x, 0.5 * bottom, word, rotation=90, ha="center", va="center", fontsize=11, bbox=box)
     path.write_bytes(encoded(figure, kind_of(path)))
     plt.close(figure)
 
