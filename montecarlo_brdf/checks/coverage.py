@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import linecache
 from collections.abc import Iterator
+from pathlib import PurePath
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.cases.lines import Unrun, total, unrun
 from montecarlo_brdf.cases.look import look
+from montecarlo_brdf.compile.bind import plain
 from montecarlo_brdf.judge.claim import Claim, Limit, Skip
 from montecarlo_brdf.model import Model, Property
 
@@ -37,7 +39,15 @@ def claims(case: Case) -> Iterator[Claim]:
     if not missed:
         yield Limit("lines run", {}, float(run), count, "plain calls")
     for one in missed:
-        yield Limit("lines run", {}, float(run), count, "plain calls", note=_told(one))
+        place = _place(one, case.model)
+        yield Limit("lines run", place, float(run), count, "plain calls", note=_told(one))
+
+
+def _place(one: Unrun, model: Model) -> dict[str, str]:
+    """Which lines; of a function that the model's file imports also of which file."""
+    home = plain(model.f).__code__.co_filename
+    elsewhere = {"file": PurePath(one.file).name} if one.file != home else {}
+    return {**elsewhere, "lines": _ranges(one.lines)}
 
 
 def _told(one: Unrun) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.judge.finding import SEVERITY, Command, Finding, Report, Result, Verdict, worst
-from montecarlo_brdf.report import pictures, text
+from montecarlo_brdf.report import listing, pictures, text
 from montecarlo_brdf.report.columns import NO_BREAK, Column
 from montecarlo_brdf.report.pictures import inline, margins
 
@@ -25,7 +25,6 @@ MOST_ROWS = 200  # of a table: the worst of more
 MOST_DOTS = 150  # of a check in a picture
 MOST_DIALS = 12
 RADIUS = 50.0  # of the horizon in a dial
-MOST_LINES = 2000  # of a source
 MOST_DRAWN_FINDINGS = 400  # of a picture
 MOST_DRAWN = 40  # pictures of a page
 DECADES = margins.DECADES
@@ -92,7 +91,7 @@ class Part(NamedTuple):
     dials: list[Dial]
     picture: str
     caption: str
-    source: Source | None
+    source: listing.Source | None
 
 
 class Table(NamedTuple):
@@ -101,14 +100,6 @@ class Table(NamedTuple):
     caption: str
     columns: list[Column]
     rows: list[tuple[str, list[str]]]
-    left_out: int
-
-
-class Source(NamedTuple):
-    """The lines of a model's file; those that a failing check is about are marked."""
-
-    file: str
-    lines: list[tuple[int, str, str]]  # number, text, the checks that accuse it
     left_out: int
 
 
@@ -163,7 +154,7 @@ def _part(report: Report, section: text.Section, anchor: str, drawn: Iterator[in
         told[text.Kind.NOTE] + told[text.Kind.OTHER], told[text.Kind.REPRODUCE],
         _table(section.title, section),
         _details(report, results), _margins(results), _dials(results), svg, caption,
-        _source(report, results),
+        listing.source(results, report.measured.get("sources", {})),
     )  # fmt: skip
 
 
@@ -291,22 +282,6 @@ def _across(f: Finding) -> float:
     """The place of a finding: its deviation in tolerances, by the logarithm; what is not finite
     stands at the end."""
     return LEFT + (WIDTH - LEFT - 20) * (margins.power(f) / DECADES + 1) / 2
-
-
-def _source(report: Report, results: Sequence[Result]) -> Source | None:
-    where = next((r.source for r in results if r.source), None)
-    content = report.measured.get("sources", {}).get(where["file"]) if where else None
-    if where is None or not isinstance(content, str):
-        return None
-    accused: dict[int, list[str]] = {}
-    for result in results:
-        if result.verdict in text.BAD:
-            accused.setdefault(text.line_of(result), []).append(result.check)
-    lines = content.splitlines()
-    rows = [
-        (k, line, ", ".join(accused.get(k, []))) for k, line in enumerate(lines[:MOST_LINES], 1)
-    ]
-    return Source(where["file"], rows, max(0, len(lines) - MOST_LINES))
 
 
 def _facts(report: Report) -> list[tuple[str, str]]:
