@@ -100,7 +100,8 @@ def house(path: Path) -> None:
         arrow = {"arrowstyle": "-|>", "color": style.BLACK, "linewidth": 1.5}
         axes.annotate("", xy=(x, ends[1]), xytext=(x, ends[0]), arrowprops=arrow)
         box = {"facecolor": "white", "edgecolor": "none", "pad": 3.0}
-        axes.text(x, 0.5 * bottom, word, rotation=90, ha="center", va="center", fontsize=11, bbox=box)
+        middle = {"ha": "center", "va": "center", "rotation": 90}
+        axes.text(x, 0.5 * bottom, word, fontsize=11, bbox=box, **middle)
     path.write_bytes(encoded(figure, kind_of(path)))
     plt.close(figure)
 

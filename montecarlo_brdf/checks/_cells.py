@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -80,6 +80,24 @@ class Cells:
     def counts(self, key: int, samples: int, threads: int = 1) -> Array:
         """Draws in each cell, and last those that were rejected or are not finite."""
         return cells.counted(self.model, self.p, self.cut, key, samples, threads)
+
+    def shown(self, counts: Array) -> dict[str, Any]:
+        """Counts with the edges of the cells, for a picture: in [0, 1], azimuth around the lobe's
+        centre (a turn), then for each column between two of these the distance from the centre to
+        the horizon, in the middle of the column."""
+        nx, nb = self.size
+        numbers = self.cut.numbers[cells.FIXED :]
+        columns = np.clip(numbers[: cells.COLUMNS - 1], 0.0, nb)
+        around = np.concatenate([[0.0], columns, [nb]])
+        strips = numbers[cells.COLUMNS - 1 :].reshape(nb, cells.ROWS - 1)
+        middle = np.minimum((0.5 * (around[:-1] + around[1:])).astype(int), nb - 1)
+        rows = np.clip(strips[middle], 0.0, nx) / nx
+        return {
+            "counts": [int(n) for n in counts],
+            "mass": float(self.tables[2]),
+            "azimuth": np.round(around / nb, 5).tolist(),
+            "distance": [[0.0, *np.round(row, 5).tolist(), 1.0] for row in rows],
+        }
 
     @property
     def probability(self) -> Array:

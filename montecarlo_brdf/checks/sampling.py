@@ -119,10 +119,11 @@ def fit(case: Case, theta: float, cells: Cells, plan: Plan, level: float) -> Fit
     place = (theta, case.phi_o_deg, *case.one)
     key = stream(plan.seed, case.model.identity, NAME, *place, n)
     counts, expected = cells.counts(key, n, plan.threads), cells.probability
+    shown = cells.shown(counts)
     if abs(counts[-1] / n - cells.rejected) <= cells.integral.error:  # a question for `pdf`
         counts[-1] = expected[-1] = 0.0
     found = judged(counts, expected, level)
-    found = found._replace(hint=_hint(counts, expected))
+    found = found._replace(hint=_hint(counts, expected), draws=shown)
     if found.p_value >= level:
         return found
     return found._replace(distance=max(0.0, found.distance - 2.0 * cells.error))

@@ -513,8 +513,7 @@ def deliver(report: Report, output: Output) -> int:
     if wanted and (files := sources(report)):
         report.measured["sources"] = files
     if "html" in {output.form, *output._files().values()}:
-        root = click.get_current_context().find_root()
-        report.measured["repeat"] = shlex.join(["brdf-check", *(root.obj or [])])
+        report.measured["repeat"] = repeated()
     for path, form in output._files().items():
         write_text(path, formats.render(report, form))
     from montecarlo_brdf.cli import _terminal
@@ -535,6 +534,11 @@ def deliver(report: Report, output: Output) -> int:
         click.echo(f"Error: {sentence}", err=True)
     undecided = report.verdict == Verdict.INCONCLUSIVE
     return policy.code if policy and undecided else report.exit_code
+
+
+def repeated() -> str:
+    """The command line that was typed."""
+    return shlex.join(["brdf-check", *(click.get_current_context().find_root().obj or [])])
 
 
 def sources(report: Report) -> dict[str, str]:

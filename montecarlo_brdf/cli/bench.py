@@ -15,6 +15,7 @@ Examples:
   brdf-check bench --model ggx -p alpha=0.05 --theta-o 80
   brdf-check bench --model my_brdf.py --quick --plot time.png
   brdf-check bench --model my_brdf.py --method "auto,own,cosine x sobol" --export time.json
+  brdf-check bench --model my_brdf.py --quick --export time.html
 """
 
 
@@ -30,8 +31,9 @@ Examples:
               help="The most processor time of one estimate. [--seconds 1]")
 @click.option("--quick", is_flag=True, help="A tenth of the time, and 4 seeds instead of 8.")
 @click.option("--json", "as_json", is_flag=True, help="Print the data as JSON, not as tables.")
-@click.option("--export", type=_options.FILE, metavar="FILE",
-              help="Write the data as JSON. [--export time.json]")
+@click.option("--export", "exports", type=_options.FILE, metavar="FILE", multiple=True,
+              help="Write the data, .json, or a page, .html; may be given more than once. "
+              "[--export time.json]")
 @_options.plot(help="Error against time, log-log, as PNG, SVG or PDF. [--plot time.png]")
 def command(
     spec: str,
@@ -42,7 +44,7 @@ def command(
     seconds: float,
     quick: bool,
     as_json: bool,
-    export: Path | None,
+    exports: tuple[Path, ...],
     plot: Path | None,
 ) -> int:  # fmt: skip
     """Which method reaches an error of 1e-2, 1e-3, 1e-4, 1e-6 in which time?
@@ -55,15 +57,17 @@ def command(
     from montecarlo_brdf import files, loading
     from montecarlo_brdf.cli._terminal import progress, tell, width
     from montecarlo_brdf.report import bench as report
+    from montecarlo_brdf.report import formats
     from montecarlo_brdf.report.pictures import encoded, kind_of
     from montecarlo_brdf.verify import failure
     from montecarlo_brdf.verify.bench import bench
 
     model = loading.load(spec)
-    for path in filter(None, (export, plot)):
+    for path in (*exports, *filter(None, [plot])):
         files.check_writable(path)
-    if export:
-        _options.check_suffix(export, "json")
+    for path in exports:
+        if path.suffix != formats.SUFFIXES["html"]:
+            _options.check_suffix(path, "json")
     kind = kind_of(plot) if plot else ""
     sets = parameter_sets(model, assignments)
     if len(sets) > 1:
@@ -75,8 +79,9 @@ def command(
                      seconds=most, seeds=seeds, progress=update)  # fmt: skip
     text = json.dumps(data, indent=1, allow_nan=False) + "\n"
     tell(text if as_json else report.table(data, width()))
-    if export:
-        files.write_text(export, text)
+    for path in exports:
+        page = path.suffix == formats.SUFFIXES["html"]
+        files.write_text(path, report.page(data, _options.repeated()) if page else text)
     if plot:
         files.write_bytes(plot, encoded(report.figure(data), kind))
     return 0

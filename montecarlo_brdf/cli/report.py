@@ -25,18 +25,22 @@ Examples:
 def command(reports: tuple[Path, ...], output: Path) -> int:
     """Write exported JSON reports in another format, without computing again."""
     from montecarlo_brdf.files import check_writable, know_input, write_text
-    from montecarlo_brdf.report import formats, html
+    from montecarlo_brdf.report import bench, formats, html
     from montecarlo_brdf.report.json import read_report
 
     form = _options.format_of(output)
-    read = [read_report(path) for path in reports]
+    measured = bench.read(reports[0]) if (form, len(reports)) == ("html", 1) else None
+    read = [] if measured else [read_report(path) for path in reports]
     for path in reports:
         know_input(path)
     check_writable(output)
     if len(read) > 1 and form != "html":
         raise UserError(f"several reports make one .html page, not {output}")
     try:
-        content = html.page(read) if form == "html" else formats.render(read[0], form)
+        if measured:
+            content = bench.page(measured)
+        else:
+            content = html.page(read) if form == "html" else formats.render(read[0], form)
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         sentence = f"the reports cannot be shown: {type(error).__name__} {error}"
         raise UserError(sentence) from error

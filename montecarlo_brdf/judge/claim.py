@@ -101,6 +101,7 @@ class Fit(NamedTuple):
     samples: int
     note: str | None = None  # why the density could not be integrated
     hint: str | None = None
+    draws: Mapping[str, Any] | None = None  # the counts in their cells, for pictures
 
 
 class Slope(NamedTuple):

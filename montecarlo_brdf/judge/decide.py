@@ -80,7 +80,7 @@ def _fit(claim: FitClaim, plan: Plan, known: str | None, level: float) -> Findin
         fit.distance, fit.upper - fit.distance if math.isfinite(fit.upper) else math.nan,
         0.0, claim.tolerance, claim.tolerance + fit.upper - fit.distance, level,
         fit.samples, "counts", note=known if verdict == Verdict.KNOWN else fit.note,
-        hint=fit.hint if refuted else None,
+        hint=fit.hint if refuted else None, draws=dict(fit.draws) if fit.draws else None,
     )  # fmt: skip
 
 

@@ -86,6 +86,7 @@ class Finding:
     note: str | None = None
     hint: str | None = None
     reproduce: str | None = None
+    draws: dict[str, Any] | None = None  # counts in cells of equal probability, for pictures
 
     @property
     def number(self) -> str:

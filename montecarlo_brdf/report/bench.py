@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import textwrap
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -39,25 +40,60 @@ def read(path: Path) -> dict[str, Any] | None:
 
 def table(data: dict[str, Any], width: int = 80) -> str:
     """For each target what every method needs, fastest first; then the methods that miss it."""
-    known = data["reference"]
-    lines = [
-        title(data),
-        f"A = {known['value']:.10g} ({known['kind']}, to {known['relative_error']:.0e})",
-        f"Relative errors: root mean square of {data['seeds']} seeds. Times: of the processor.",
-    ]
+    lines = [title(data), *_said(data)]
     for target, rows in data["targets"].items():
         columns = (Column(f"to {target}"), *NUMBERS)
-        cells = [_row(row, k == 0) for k, row in enumerate(rows)]
+        cells = [_row(row, "* " if k == 0 else "  ") for k, row in enumerate(rows)]
         lines += ["", *columns_of(columns, cells, width)] if rows else ["", f"to {target}"]
-        missed = [m for m in data["methods"] if m not in {row["method"] for row in rows}]
-        lines += [f"  {method:<27} not within {data['seconds']:g} s" for method in missed]
+        lines += [f"  {method:<27} {_late(data)}" for method in _missed(data, rows)]
     return "\n".join([*lines, "", "* fastest"]) + "\n"
 
 
-def _row(row: dict[str, Any], fastest: bool) -> Row:
+def page(data: dict[str, Any], repeat: str = "") -> str:
+    """The same with its picture as a page; repeat: the command line, if it is known."""
+    from montecarlo_brdf.report import html
+    from montecarlo_brdf.report.pictures import encoded, inline
+
+    parts = []
+    for k, (target, rows) in enumerate(data["targets"].items()):
+        name = f"to an error of {target}"
+        cells = [("", list(_row(row))) for row in rows]
+        shown = html.Table(name, [Column("method"), *NUMBERS], cells, 0)
+        notes = [f"{method}: {_late(data)}" for method in _missed(data, rows)]
+        parts.append(html.Part(f"part-{k}", name, "", shown, notes=notes))
+    if parts:
+        caption = "Relative error against processor time, a line for each method"
+        drawn = inline.svg(encoded(figure(data), "svg"))
+        parts[0] = parts[0]._replace(picture=drawn, caption=caption)
+    settings = {name: data[name] for name in ("seconds", "seeds")}
+    facts = html.facts({**settings, **data.get("versions", {})})
+    first, second = _said(data)
+    chapter = html.Chapter("bench", "", first, second, parts, facts, repeat)
+    return html.filled(f"bench: {' '.join(title(data).split())}", "", [chapter])
+
+
+def _said(data: dict[str, Any]) -> tuple[str, str]:
+    """What errors are held against, and what they and times are."""
+    known = data["reference"]
+    return (
+        f"A = {known['value']:.10g} ({known['kind']}, to {known['relative_error']:.0e})",
+        f"Relative errors: root mean square of {data['seeds']} seeds. Times: of the processor.",
+    )
+
+
+def _missed(data: dict[str, Any], rows: Sequence[dict[str, Any]]) -> list[str]:
+    reached = {row["method"] for row in rows}
+    return [method for method in data["methods"] if method not in reached]
+
+
+def _late(data: dict[str, Any]) -> str:
+    return f"not within {data['seconds']:g} s"
+
+
+def _row(row: dict[str, Any], mark: str = "") -> Row:
     each = 1e9 * row["seconds"] / row["samples"]
     return (
-        f"{'* ' if fastest else '  '}{row['method']}", str(row["samples"]), f"{row['error']:.1e}",
+        f"{mark}{row['method']}", str(row["samples"]), f"{row['error']:.1e}",
         f"{row['seconds']:.2g}", f"{each:.3g}",
     )  # fmt: skip
 

@@ -10,10 +10,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from montecarlo_brdf.judge.finding import SEVERITY, Command, Finding, Report, Result, Verdict, worst
-from montecarlo_brdf.report import listing, pictures, text
+from montecarlo_brdf.judge.finding import SEVERITY, Command, Report, Result, Verdict, worst
+from montecarlo_brdf.report import densities, listing, pictures, sketches, text
 from montecarlo_brdf.report.columns import NO_BREAK, Column
-from montecarlo_brdf.report.pictures import inline, margins
+from montecarlo_brdf.report.pictures import inline
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -22,13 +22,8 @@ TEMPLATES = Path(__file__).parent / "templates"
 #: commands with pictures of their own for each part
 CURVES = (Command.CONVERGE, Command.FURNACE, Command.RADIANCE, Command.STRESS)
 MOST_ROWS = 200  # of a table: the worst of more
-MOST_DOTS = 150  # of a check in a picture
-MOST_DIALS = 12
-RADIUS = 50.0  # of the horizon in a dial
 MOST_DRAWN_FINDINGS = 400  # of a picture
 MOST_DRAWN = 40  # pictures of a page
-DECADES = margins.DECADES
-WIDTH, LEFT, STEP = 640, 150, 24  # of that picture
 
 
 def render(report: Report) -> str:
@@ -44,8 +39,13 @@ def page(reports: Sequence[Report]) -> str:
     models = dict.fromkeys(r.model for report in reports for r in report.results if r.model)
     commands = dict.fromkeys(report.command for report in reports)
     title = f"{', '.join(commands)}: {', '.join(models)}" if models else ", ".join(commands)
-    known = {"title": title, "verdict": verdict, "chapters": chapters}
-    return _template().render(many=len(reports) > 1, **known)
+    return filled(title, verdict, chapters)
+
+
+def filled(title: str, verdict: str, chapters: Sequence[Chapter]) -> str:
+    """The page of some chapters; without a verdict of what judges nothing."""
+    many = len(chapters) > 1
+    return _template().render(title=title, verdict=verdict, chapters=chapters, many=many)
 
 
 @functools.cache
@@ -82,16 +82,17 @@ class Part(NamedTuple):
     anchor: str
     title: str
     verdict: str
-    hints: list[str]
-    notes: list[str]
-    commands: list[str]
     table: Table
-    details: list[tuple[str, Table]]
-    margins: Margins | None
-    dials: list[Dial]
-    picture: str
-    caption: str
-    source: listing.Source | None
+    hints: Sequence[str] = ()
+    notes: Sequence[str] = ()
+    commands: Sequence[str] = ()
+    details: Sequence[tuple[str, Table]] = ()
+    margins: sketches.Margins | None = None
+    dials: Sequence[sketches.Dial] = ()
+    draws: densities.Draws | None = None
+    picture: str = ""
+    caption: str = ""
+    source: listing.Source | None = None
 
 
 class Table(NamedTuple):
@@ -101,34 +102,6 @@ class Table(NamedTuple):
     columns: list[Column]
     rows: list[tuple[str, list[str]]]
     left_out: int
-
-
-class Dot(NamedTuple):
-    """A finding in the picture of margins."""
-
-    x: float
-    y: float
-    verdict: str
-    label: str
-
-
-class Dial(NamedTuple):
-    """Where the worst finding of a check lies: the directions as seen from above the surface, the
-    normal in the middle, the horizon at the rim."""
-
-    check: str
-    words: str
-    marks: list[tuple[str, float, float]]  # wo or wi, x, y
-
-
-class Margins(NamedTuple):
-    """How near every finding came to its tolerance, on a log scale."""
-
-    height: int
-    limit: float
-    rows: list[tuple[float, str]]
-    ticks: list[tuple[float, str]]
-    dots: list[Dot]
 
 
 def _chapter(report: Report, k: int, drawn: Iterator[int]) -> Chapter:
@@ -150,10 +123,10 @@ def _part(report: Report, section: text.Section, anchor: str, drawn: Iterator[in
     verdict = worst(r.verdict for r in results)
     svg, caption = _picture(report, results, drawn)
     return Part(
-        anchor, section.title, verdict, told[text.Kind.HINT],
+        anchor, section.title, verdict, _table(section.title, section), told[text.Kind.HINT],
         told[text.Kind.NOTE] + told[text.Kind.OTHER], told[text.Kind.REPRODUCE],
-        _table(section.title, section),
-        _details(report, results), _margins(results), _dials(results), svg, caption,
+        _details(report, results), sketches.margins_of(results), sketches.dials(results),
+        densities.draws(results), svg, caption,
         listing.source(results, report.measured.get("sources", {})),
     )  # fmt: skip
 
@@ -230,68 +203,18 @@ def _drawable(
         yield report.command, list(results), f"The picture of {report.command}"
 
 
-def _margins(results: Sequence[Result]) -> Margins | None:
-    """Findings that have a tolerance, a row for each check or quantity."""
-    rows: dict[str, list[Finding]] = {}
-    several = len(results) > 1
-    for result in results:
-        for f in result.findings:
-            if f.tolerance and f.expected is not None:
-                rows.setdefault(result.check if several else f.quantity, []).append(f)
-    if not rows:
-        return None
-    names = [*rows][:MOST_DRAWN]
-    dots = [d for k, name in enumerate(names) for d in _dots(rows[name], 18 + STEP * k)]
-    unit = (WIDTH - LEFT - 20) / (2 * DECADES)
-    ticks = [(LEFT + unit * (d + DECADES), f"10^{d}" if d else "1") for d in range(-4, 5, 2)]
-    named = [(18.0 + STEP * k, name) for k, name in enumerate(names)]
-    return Margins(STEP * len(names) + 46, LEFT + unit * DECADES, named, ticks, dots)
-
-
-def _dials(results: Sequence[Result]) -> list[Dial]:
-    """Of the checks that failed at a pair of directions, or at one."""
-    found = []
-    for result in results:
-        if result.findings and result.verdict in text.BAD:
-            finding = text.most_telling(result)
-            marks = [m for w in "oi" if (m := _mark(finding, w))]
-            if marks:
-                found.append(Dial(result.check, text.place(finding), marks))
-    return found[:MOST_DIALS]
-
-
-def _mark(finding: Finding, which: str) -> tuple[str, float, float] | None:
-    theta = finding.where.get(f"theta_{which}_deg")
-    phi = finding.where.get(f"phi_{which}_deg", 0.0)
-    known = (isinstance(v, (int, float)) and math.isfinite(v) for v in (theta, phi))
-    if not all(known):
-        return None
-    radius, angle = RADIUS * float(theta) / 90.0, math.radians(float(phi))  # type: ignore[arg-type]
-    x, y = radius * math.cos(angle), radius * math.sin(angle)
-    return f"w{which}", round(60.0 + x, 1), round(60.0 - y, 1)
-
-
-def _dots(findings: Sequence[Finding], y: float) -> list[Dot]:
-    ordered = sorted(findings, key=lambda f: SEVERITY.index(Verdict(f.verdict)))
-    return [
-        Dot(round(_across(f), 1), y, f.verdict, text.statement(f)) for f in ordered[:MOST_DOTS]
-    ][::-1]
-
-
-def _across(f: Finding) -> float:
-    """The place of a finding: its deviation in tolerances, by the logarithm; what is not finite
-    stands at the end."""
-    return LEFT + (WIDTH - LEFT - 20) * (margins.power(f) / DECADES + 1) / 2
-
-
 def _facts(report: Report) -> list[tuple[str, str]]:
     """Settings and versions, one a line."""
     settings = {k: v for k, v in report.settings.items() if k != "plan"}
     versions = report.to_dict()["versions"] if report.versions is None else report.versions
-    rows = [*settings.items(), *versions.items()]
-    if isinstance(seconds := report.measured.get("seconds"), (int, float)):
-        rows.append(("seconds", f"{seconds:.3g}"))
-    return [(str(k).replace("_", " "), _said(v)) for k, v in rows]
+    seconds = report.measured.get("seconds")
+    took = {"seconds": f"{seconds:.3g}"} if isinstance(seconds, (int, float)) else {}
+    return facts({**settings, **versions, **took})
+
+
+def facts(rows: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Names and values as people read them."""
+    return [(str(k).replace("_", " "), _said(v)) for k, v in rows.items()]
 
 
 def _said(value: Any) -> str:

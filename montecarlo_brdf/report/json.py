@@ -14,7 +14,7 @@ NUMBER = (int, float)
 Types = dict[str, type | tuple[type, ...]]
 RESULT: Types = {"model": str, "params": dict, "check": str}
 RESULT |= {"findings": list, "curves": list, "source": dict}
-FINDING: Types = {"quantity": str, "where": dict, "estimators": list}
+FINDING: Types = {"quantity": str, "where": dict, "estimators": list, "draws": dict}
 FINDING |= dict.fromkeys(("value", "stderr", "expected", "tolerance", "resolves", "level"), NUMBER)
 
 

@@ -44,6 +44,7 @@ FINDING = _object(
     note=TEXT,
     hint=_said(TEXT, "the likely cause"),
     reproduce=_said(TEXT, "a command line that gives the finding again"),
+    draws=_said(OBJECT, "counts of draws in cells of equal probability, and the edges of these"),
 )
 RESULT = _object(
     {

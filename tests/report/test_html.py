@@ -10,14 +10,16 @@ import shutil
 import subprocess
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from conftest import Outcome
 
+import montecarlo_brdf as mb
 from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verdict
-from montecarlo_brdf.report import formats, html
+from montecarlo_brdf.report import densities, formats, html
 from montecarlo_brdf.report.json import read_report
 
 html5lib = pytest.importorskip("html5lib")
@@ -167,6 +169,89 @@ def test_sources_in_other_encodings(
     Path("latin.py").write_bytes(text.encode("latin-1"))
     line = ("furnace", "--model", "latin.py", "--theta-o", 0, "--export", "page.html")
     assert cli(*line).code == 0 and faults(Path("page.html").read_text(encoding="utf-8")) == []
+
+
+def never_run(lines: str, **where: str) -> Finding:
+    return Finding("lines run", {**where, "lines": lines}, Verdict.KNOWN, value=3.0, stderr=0.0)
+
+
+def test_lines_that_no_check_ran_are_marked() -> None:
+    content = "".join(f"line{k}\n" for k in range(1, 8))
+    source = {"file": "my.py", "line": 1, "functions": {"f": 4}}
+    failing = Result("my.py", {}, "furnace", many(1, Verdict.FAIL), [], source)
+    odd = [never_run("3-5, 7"), never_run("1", file="other.py"), never_run("-"), never_run("1-x")]
+    report = Report(
+        Command.RUN, {}, [failing, Result("my.py", {}, "coverage", odd, [], source)],
+        {"sources": {"my.py": content}},
+    )  # fmt: skip
+    page = html.render(report)
+    assert faults(page) == []
+    rows = [" ".join(row.itertext()) for row in parsed(page).iter("tr")]
+    shown = {row.split()[1]: row for row in rows if "line" in row and row.split()[0].isdigit()}
+    marked = [k for k, row in shown.items() if "never run" in row]
+    assert marked == ["line3", "line4", "line5", "line7"]
+    assert "furnace" in shown["line4"] and "that no check ran (4)" in text_of(page)
+    covered = Finding("lines run", {}, Verdict.PASS, value=7.0, stderr=0.0)
+    one = Result("my.py", {}, "coverage", [covered], [], source)
+    whole = html.render(Report(Command.RUN, {}, [one], {"sources": {"my.py": content}}))
+    assert "Checks ran every line." in whole and "never run" not in whole
+
+
+def counted(**changes: Any) -> Finding:
+    """Two columns of two cells: 10 draws in one that should have 25."""
+    data = {"counts": [10, 30, 30, 30, 0], "mass": 1.0, "azimuth": [0.0, 0.5, 1.0],
+            "distance": [[0.0, 0.2, 1.0], [0.0, 0.4, 1.0]]}  # fmt: skip
+    return replace(many(1)[0], draws={**data, **changes})
+
+
+def test_draws_are_shown_beside_the_pdf() -> None:
+    (first, *_) = cells = densities.cells(counted())
+    assert (first.found, first.expected) == (10.0, 25.0) and first.residual == -3.0
+    assert math.fsum(c.area for c in cells) == pytest.approx(1.0)
+    report = Report(Command.RUN, {}, [Result("my.py", {}, "sampling", [counted()])])
+    page = html.render(report)
+    assert faults(page) == [] and "Draws against pdf" in page and "100 draws" in page
+    shades = {p.title: {name for name, _, _ in p.shades} for p in
+              densities.draws(report.results).panels}  # type: ignore[union-attr]  # fmt: skip
+    assert shades["difference"] == {"more", "less"} and shades["pdf"] == {"dense"}
+
+
+@pytest.mark.parametrize(
+    "changes", [{"counts": []}, {"counts": [1, 2]}, {"azimuth": None}, {"mass": "much"}]
+)
+def test_damaged_draws_are_left_out(changes: dict[str, Any]) -> None:
+    result = Result("my.py", {}, "sampling", [counted(**changes)])
+    assert "Draws against" not in html.render(Report(Command.RUN, {}, [result]))
+
+
+def test_every_look_at_draws_can_be_shown() -> None:
+    report = mb.run(mb.load("lambert"), names=["sampling"], theta_o_deg=[30.0], effort=0.03)
+    findings = [f for r in report.results for f in r.findings]
+    assert findings and all(f.draws for f in findings)
+    for one in findings:
+        found = densities.cells(one)
+        assert sum(c.found for c in found) <= one.samples  # type: ignore[operator]
+        assert math.fsum(c.area for c in found) == pytest.approx(1.0, abs=1e-3)
+        assert max(abs(c.residual) for c in found) < 6.0
+    again = json.loads(report.to_json())["results"][0]["findings"][0]["draws"]
+    assert again == findings[0].draws
+
+
+def test_the_page_of_a_benchmark(
+    cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    line = ("bench", "--model", "lambert", "--quick", "--method", "uniform x sobol,cosine x sobol")
+    assert cli(*line, "--export", "time.json", "--export", "time.html").code == 0
+    page = Path("time.html").read_text(encoding="utf-8")
+    assert faults(page) == [] and len(page) < 500_000
+    words = text_of(page)
+    assert "bench: lambert(albedo=0.8) at 60°" in words and "to an error of 0.001" in words
+    assert "uniform x sobol" in words and "--export time.html" in words
+    assert cli("report", "time.json", "-o", "again.html").code == 0
+    assert "bench: lambert" in text_of(Path("again.html").read_text(encoding="utf-8"))
+    assert cli("report", "time.json", "-o", "again.md").code == 2
+    assert cli(*line, "--export", "time.csv").code == 2
 
 
 BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
