@@ -24,7 +24,7 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.text import called
 from montecarlo_brdf.sampling.points import SETS
 from montecarlo_brdf.toml import Keys, Table, parse
-from montecarlo_brdf.verify.question import shown_parameters
+from montecarlo_brdf.verify.question import Heard, shown_parameters
 from montecarlo_brdf.verify.run import ANGLES, SAMPLES, run
 from montecarlo_brdf.verify.supervision import Deadline
 
@@ -73,12 +73,12 @@ class Request(NamedTuple):
 
     def run(
         self, deadline: Deadline | None = None, threads: int | None = None,
-        progress: Progress | None = None,
+        progress: Progress | None = None, heard: Heard | None = None,
     ) -> Report:  # fmt: skip
         """The report of `verify.run`."""
         return run(
             self.model, self.p, fixed=self.fixed, deadline=deadline, threads=threads,
-            progress=progress, **{**self.terms._asdict(), "against": self.against},
+            progress=progress, heard=heard, **{**self.terms._asdict(), "against": self.against},
         )  # fmt: skip
 
 
@@ -107,7 +107,7 @@ class Broken(NamedTuple):
 
     def run(
         self, deadline: Deadline | None = None, threads: int | None = None,
-        progress: Progress | None = None,
+        progress: Progress | None = None, heard: Heard | None = None,
     ) -> Report:  # fmt: skip
         """What is wrong with it."""
         raise self.error

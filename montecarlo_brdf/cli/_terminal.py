@@ -4,25 +4,29 @@ that takes longer than half a second."""
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import shutil
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import TextIO
 
 import click
 
+from montecarlo_brdf.cli import _live
 from montecarlo_brdf.compile import folders
 from montecarlo_brdf.compile.kernel import listeners
+from montecarlo_brdf.judge.finding import Result
 from montecarlo_brdf.report.text import PLAIN_WIDTH
+from montecarlo_brdf.verify.question import Heard
 
 PATIENCE = 0.5
 INTERVAL = 0.1  # seconds from one drawing to the next
 CELLS = 40
 LONG = 3.0  # seconds of compiling after which one is told
-ERASE = "\r\x1b[K"
+LASTS = 2.0  # seconds for which a kernel counts as being compiled
 
 
 _kept: list[TextIO] = []
@@ -64,58 +68,103 @@ def tell(text: str) -> None:
 
 
 @contextlib.contextmanager
-def progress(title: str) -> Iterator[Callable[[float], None]]:
-    """A callback for the fraction done; draws nothing unless stderr is a terminal."""
+def progress(title: str, results: bool = False) -> Iterator[Shown]:
+    """A callback for the fraction done; draws nothing unless stderr is a terminal.
+
+    results: show them as they are decided, where stdout is a terminal too."""
     if why := folders.fault():
         slow = "everything is compiled anew each time"
         click.echo(f"Warning: cannot write to {folders.directory()} ({why}): {slow}", err=True)
     if quiet():
-        yield lambda done: None
+        yield Shown()
         return
-    started = time.monotonic()
-    due = started + PATIENCE
-    drawn = False
-    words = _Words()
-    one_at_a_time = threading.Lock()  # checks side by side all tell how far they are
-
-    def update(done: float) -> None:
-        nonlocal due, drawn
-        now = time.monotonic()
-        if now < due or not _terminal():
-            return
-        with one_at_a_time:
-            due = now + INTERVAL
-            drawn = True
-            _write(ERASE + line(words.compiling or title, done, now - started))
-
-    listeners.append(words.hear)
+    both = results and _terminal() and stdout().isatty()
+    bar = _Bar(title, colour() if both else None)
+    listeners.append(bar.compiles)
     try:
-        yield update
+        with _live.below(bar.bottom) if both else contextlib.nullcontext():
+            yield bar
     finally:
-        listeners.remove(words.hear)
-        words.end()
-        if drawn:
-            _write(ERASE)
+        listeners.remove(bar.compiles)
+        bar.end()
+
+
+class Shown:
+    """How far a command is, for somebody who does not want to know."""
+
+    #: takes in the findings of a check so far; None where nobody sees them
+    hear: Heard | None = None
+
+    def __call__(self, done: float) -> None:
+        """So much is done."""
+
+
+class _Bar(Shown):
+    """The same on a terminal, drawn in intervals, for threads that all tell how far they are."""
+
+    def __init__(self, title: str, colour: bool | None) -> None:
+        """colour: of results; None for no results."""
+        self.bottom = _live.Bottom(sys.stderr)
+        self._title, self._board = title, None if colour is None else _live.Board(colour)
+        self._started = time.monotonic()
+        self._due, self._done = self._started + PATIENCE, 0.0
+        self._lock = threading.Lock()
+        self._words = _Words(self.bottom)
+        self.hear = self._hear if self._board else None
+
+    def __call__(self, done: float) -> None:
+        self._done = done
+        self._draw()
+
+    def _hear(self, result: Result, done: bool) -> None:
+        if self._board:
+            with self._lock:
+                self._board.hear(result, done)
+
+    def compiles(self, model: str) -> None:
+        """A kernel of a model is compiled now."""
+        self._words.hear(model)
+        self._draw()
+
+    def end(self) -> None:
+        """Say nothing any more."""
+        self._words.end()
+        self.bottom.clear()
+
+    def _draw(self) -> None:
+        now = time.monotonic()
+        if now < self._due or not _terminal():
+            return
+        with self._lock:
+            self._due = now + INTERVAL
+            bar = line(self._words.now() or self._title, self._done, now - self._started)
+            self.bottom.draw(self._board.lines() if self._board else [], bar)
 
 
 class _Words:
     """What to say while machine code is made, which the first run of a model waits for."""
 
-    def __init__(self) -> None:
-        self.compiling = ""
+    def __init__(self, bottom: _live.Bottom) -> None:
+        self._bottom = bottom
+        self._model, self._kernels, self._last = "", 0, -math.inf
         self._timer: threading.Timer | None = None
 
     def hear(self, model: str) -> None:
-        """A kernel is compiled; those of the next seconds belong to it."""
-        self.compiling = f"compiling {model}"
+        """A kernel is compiled; the next seconds belong to it."""
+        self._kernels = self._kernels + 1 if model == self._model else 1
+        self._model, self._last = model, time.monotonic()
         if self._timer is None:
             self._timer = threading.Timer(LONG, self._say)
             self._timer.daemon = True
             self._timer.start()
 
+    def now(self) -> str:
+        """'compiling my.py, first time (3)', if that is so."""
+        recent = time.monotonic() - self._last < LASTS
+        return f"compiling {self._model}, first time ({self._kernels})" if recent else ""
+
     def _say(self) -> None:
-        told = f"{self.compiling}: only the first run after an edit takes so long"
-        _write(f"{ERASE}{told}\n" if _terminal() else f"{told}\n")
+        self._bottom.write(f"compiling {self._model}, first time: the next run need not\n")
 
     def end(self) -> None:
         """Say nothing any more."""
@@ -140,9 +189,3 @@ def line(title: str, done: float, seconds: float) -> str:
 
 def _terminal() -> bool:
     return bool(sys.stderr and sys.stderr.isatty()) and os.environ.get("TERM") != "dumb"
-
-
-def _write(text: str) -> None:
-    with contextlib.suppress(OSError):  # a bar is not worth an error
-        sys.stderr.write(text)
-        sys.stderr.flush()

@@ -14,6 +14,7 @@ from montecarlo_brdf.cli._sources import Sources
 from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge.finding import Report
 from montecarlo_brdf.report import baseline
+from montecarlo_brdf.verify.supervision import left_behind
 
 MOST = 10  # lines of what changed
 
@@ -57,6 +58,8 @@ class _Loop:
             self.code = _complaint(sentence, ModelError.exit_code)
         if not self.sources.stamps:
             raise UserError("--watch needs a file of your own: nothing here could change")
+        if left_behind():
+            _say("note: code of an answer before still runs and takes a processor; begin anew")
         self._first = False
 
     def _compared(self, report: Report) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._options import Read, finite, listed, models_of, parameter_sets
+from montecarlo_brdf.cli._options import TEXT, Read, finite, listed, models_of, parameter_sets
 from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge.finding import Report
 
@@ -91,12 +91,15 @@ def gather(
 
     models, reports = [loading.load(one) for one in specs], []
     output.check()
-    with progress("furnace") as update:
+    with progress("furnace", output.form == TEXT) as update:
         for k, model in enumerate(models):
             part = part_of(update, k, len(models))
             sets = parameter_sets(model, assignments)
             try:
-                reports.append(furnace(model, sets, progress=part, curve=output.draws(), **terms))
+                report = furnace(
+                    model, sets, progress=part, heard=update.hear, curve=output.draws(), **terms
+                )
+                reports.append(report)
             except ModelError as error:
                 if len(models) == 1:
                     raise

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from montecarlo_brdf.cli import _options
-from montecarlo_brdf.cli._options import Read, finite, listed, models_of
+from montecarlo_brdf.cli._options import TEXT, Read, finite, listed, models_of
 from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge import finding
 from montecarlo_brdf.judge.finding import (
@@ -116,7 +116,7 @@ def command(
         policy = output.inconclusive or project.inconclusive
         output.check()
         limit = max_time or project.max_time or math.inf
-        report = gather(project.requests, threads, Deadline(limit))
+        report = gather(project.requests, threads, Deadline(limit), output.form == TEXT)
         report = covered(report) if require_coverage else report
         show(report)
         return finish(report, output._replace(inconclusive=policy), earlier)
@@ -171,18 +171,22 @@ def given_options() -> set[str]:
     return {name for name in context.params if context.get_parameter_source(name) not in default}
 
 
-def gather(requests: Sequence[Request | Broken], threads: int | None, deadline: Deadline) -> Report:
-    """One report over all requests, also when it is interrupted."""
+def gather(
+    requests: Sequence[Request | Broken], threads: int | None, deadline: Deadline,
+    results: bool = False,
+) -> Report:  # fmt: skip
+    """One report over all requests, also when it is interrupted. results: show them on a terminal
+    as they are decided."""
     from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.verify.question import failed, merged, part_of
 
     reports: list[Report] = []
     try:
-        with progress("run") as update:
+        with progress("run", results) as update:
             for k, one in enumerate(requests):
                 part = part_of(update, k, len(requests))
                 try:
-                    reports.append(one.run(deadline, threads, part))
+                    reports.append(one.run(deadline, threads, part, update.hear))
                 except ModelError as error:
                     if len(requests) == 1:
                         raise

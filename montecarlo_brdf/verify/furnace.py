@@ -19,6 +19,7 @@ from montecarlo_brdf.model import Model
 from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.question import (
     SAMPLES,
+    Heard,
     Question,
     Sets,
     Settings,
@@ -39,6 +40,7 @@ def furnace(
     samples: int = SAMPLES, seed: int = 0, threads: int | None = None,
     tolerance: float | None = None, target_error: float | None = None, method: str | None = None,
     progress: Progress | None = None, curve: bool = False, sums: PartialSums | None = None,
+    heard: Heard | None = None,
 ) -> Report:  # fmt: skip
     """White furnace test: A(wo) equals its reference and is at most 1, at every angle.
 
@@ -52,7 +54,8 @@ def furnace(
     is as narrow. method: "auto" takes the sampler and points that fit the model best, "given" those
     given; None for "auto" with a target. progress: is called with the fraction done. curve: add the
     reference at every degree, for pictures. sums: `partial_sums(file)`, where billions of samples
-    survive an interruption.
+    survive an interruption. heard: is called with a Result of what was found so far and whether
+    that is all of it, after each finding.
 
     Returns a Report with one Result per parameter set. Raises UserError for a bad value, ModelError
     if the model does not run, TooSlow if it does not return.
@@ -70,7 +73,7 @@ def furnace(
     count = 2 * len(thetas) * len(cases[0].sets) if cases else 1
     told = {"theta_o_deg": thetas, "phi_o_deg": phi_o_deg, "sampler": samplers}
     told |= {"tolerance": tolerance, **settings.told()}
-    report = answered(Command.FURNACE, told, questions, settings.plan, count, progress)
+    report = answered(Command.FURNACE, told, questions, settings.plan, count, progress, heard)
     if not curve:
         return report
     drawn = []

@@ -32,6 +32,8 @@ SAMPLES = 1 << 22
 INTERRUPTED = "interrupted"  # of what a report measured: whether it was
 PATIENCE = 20.0  # seconds for a few evaluations: sampling needs a million
 Sets: TypeAlias = "NamedTuple | list[Any] | None"  # one parameter set, several, the defaults
+#: is told of the findings of a check so far, and whether these are all
+Heard = Callable[[Result, bool], None]
 Repeat = Callable[[Finding], str | None]  # the command line that gives a finding again
 
 
@@ -116,7 +118,7 @@ class Question(NamedTuple):
 
 def answered(
     command: Command, told: dict[str, Any], questions: Sequence[Question], plan: Plan, count: int,
-    progress: Progress | None = None,
+    progress: Progress | None = None, heard: Heard | None = None,
 ) -> Report:  # fmt: skip
     """The report of questions, one after another; count: about how many claims each has."""
     started, results, times = time.perf_counter(), [], []
@@ -125,8 +127,11 @@ def answered(
         probed(case.model, case.p)
         part = part_of(progress, k, len(questions))
         claims, began = question.claims(case), time.perf_counter()
+        tell = heard and _of_result(question, heard)
         with failure.of_case(case):
-            found = decided(claims, plan, case.model.disclaims, count=count, progress=part)
+            found = decided(
+                claims, plan, case.model.disclaims, count=count, progress=part, heard=tell
+            )
         results.append(question.result(found))
         times.append(time.perf_counter() - began)
     return reported(command, told, results, started, times)
@@ -135,14 +140,23 @@ def answered(
 def decided(
     claims: Iterable[Claim], plan: Plan, disclaims: Mapping[str, str], repeat: Repeat | None = None,
     *, count: int = 1, progress: Progress | None = None,
+    heard: Callable[[list[Finding], bool], None] | None = None,
 ) -> list[Finding]:  # fmt: skip
     """The findings of all claims, in their order; count: about how many there are."""
     findings = []
     for claim in claims:
         findings.append(judged(claim, plan, disclaims, repeat))
+        if heard:
+            heard(findings, False)
         if progress:
             progress(min(1.0, len(findings) / count))
+    if heard:
+        heard(findings, True)
     return findings
+
+
+def _of_result(question: Question, heard: Heard) -> Callable[[list[Finding], bool], None]:
+    return lambda findings, done: heard(question.result([*findings]), done)
 
 
 def judged(

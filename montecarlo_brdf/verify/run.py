@@ -20,6 +20,7 @@ from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verd
 from montecarlo_brdf.model import Model, Property
 from montecarlo_brdf.verify import failure
 from montecarlo_brdf.verify.question import (
+    Heard,
     Question,
     Sets,
     Settings,
@@ -47,7 +48,7 @@ def run(
     against: Model | None = None, points: str = "sobol", samples: int = SAMPLES, seed: int = 0,
     threads: int | None = None, tolerance: float | None = None, effort: float = 1.0,
     tolerances: Mapping[str, float] = MappingProxyType({}), deadline: Deadline | None = None,
-    progress: Progress | None = None,
+    progress: Progress | None = None, heard: Heard | None = None,
 ) -> Report:  # fmt: skip
     """Every check of a model, or those named, for one or several parameter sets.
 
@@ -62,7 +63,8 @@ def run(
     isotropy, positivity. tolerances: the same for single checks by name, these too. effort: the
     share, in (0, 1], of the pairs, places and nodes that checks look at: a look in passing, which
     may miss what a whole one finds. deadline: no claim is begun after it, and what is left is
-    inconclusive. progress: is called with the fraction done.
+    inconclusive. progress: is called with the fraction done. heard: is called with a
+    Result of what a check found so far and whether that is all of it, after each finding.
 
     Returns a Report with one Result per parameter set and check; an interruption returns what was
     found so far, and says so in `measured`; a check that the model ends by an exception has the
@@ -86,7 +88,7 @@ def run(
         groups.append([Task(Question(n, c, checks.find(n).claims)) for n, c in cases.items()])
     why, interrupted = "--max-time was over", False
     try:
-        perform(groups, settings, deadline or Deadline(), progress)
+        perform(groups, settings, deadline or Deadline(), progress, heard)
     except KeyboardInterrupt:
         why, interrupted = "interrupted", True
     told = {"checks": asked, "theta_o_deg": angles, "tolerance": tolerance, **settings.told()}
@@ -157,23 +159,25 @@ class Task:
                         return
                     self.findings.append(judged(claim, plan, case.model.disclaims, repeat))
                     self.seconds = time.perf_counter() - began
-                    tell()
+                    tell(self)
         except ModelError as error:
             self.findings.append(Finding(name, {}, Verdict.ERROR, note=str(error)))
         self.done = True
-        tell()
+        tell(self)
 
 
-Told = Callable[[], None]
+Told = Callable[[Task], None]
 
 
 def perform(
     groups: Sequence[Sequence[Task]], settings: Settings, deadline: Deadline,
-    progress: Progress | None = None,
+    progress: Progress | None = None, heard: Heard | None = None,
 ) -> None:  # fmt: skip
     """Do the tasks of one case after another until the deadline; those of a case side by side."""
 
-    def tell() -> None:
+    def tell(task: Task) -> None:
+        if heard:
+            heard(task.question.result([*task.findings]), task.done)
         if progress:
             progress(sum(t.share for g in groups for t in g) / sum(map(len, groups)))
 

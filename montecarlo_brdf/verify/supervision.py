@@ -58,8 +58,18 @@ class _Work:
     def leave(self) -> None:
         """Have the thread end at its next line."""
         _hush()
+        _left.append(self.thread)
         identity = ctypes.c_ulong(self.thread.ident or 0)
         ctypes.pythonapi.PyThreadState_SetAsyncExc(identity, ctypes.py_object(Left))
+
+
+_left: list[threading.Thread] = []
+
+
+def left_behind() -> int:
+    """How many threads that nobody waits for still run."""
+    _left[:] = [thread for thread in _left if thread.is_alive()]
+    return len(_left)
 
 
 @functools.cache

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from montecarlo_brdf.cli import _terminal
+from montecarlo_brdf.cli import _live, _terminal
 from montecarlo_brdf.compile import kernel
 
 
@@ -37,8 +37,8 @@ def test_checks_side_by_side_share_a_progress_bar(monkeypatch: pytest.MonkeyPatc
     with _terminal.progress("test") as update, concurrent.futures.ThreadPoolExecutor(4) as pool:
         for done in [pool.submit(update, 0.1 * k) for k in range(8)]:
             done.result()
-    assert len(written) > 1 and written[-1] == _terminal.ERASE
-    assert all(text.startswith(_terminal.ERASE) for text in written)
+    assert len(written) > 1 and written[-1] == _live.ERASE
+    assert all(text.startswith(_live.ERASE) for text in written)
 
 
 def test_a_progress_bar_is_no_wider_than_the_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -65,5 +65,5 @@ def test_one_is_told_while_a_model_is_compiled(
                 hear("my.py")
             time.sleep(0.1)
         told = capsys.readouterr().err
-        assert ("compiling my.py: only the first run" in told) == (not quiet)
+        assert ("compiling my.py, first time: " in told) == (not quiet)
         assert not kernel.listeners

@@ -4,65 +4,20 @@ from __future__ import annotations
 
 import importlib.util
 import os
-import select
-import signal
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from conftest import Outcome
+from terminals import BEGIN, Session
 
-pty = pytest.importorskip("pty")
-
-PATIENCE = 60.0  # seconds until an answer is taken for missing
 MODEL = "from other import K\n\n\ndef f(wo, wi, p):\n    return K / 3.141592653589793\n"
 #: asks one value: nothing has to be sampled
 QUESTION = ["run", "--model", "my.py", "--check", "positivity", "--effort", "0.01", "--watch"]
-BEGIN = "from montecarlo_brdf.cli import main; main()"
 #: as if the library was not installed
 WITHOUT = "import sys; sys.modules['watchfiles'] = None; "
 INSTALLED = importlib.util.find_spec("watchfiles") is not None
-
-
-class Session:
-    """A command on a terminal of its own."""
-
-    def __init__(self, folder: Path, code: str, *arguments: str) -> None:
-        ours, theirs = pty.openpty()
-        environment = {**os.environ, "TERM": "dumb", "COLUMNS": "200"}
-        environment.pop("BRDF_CHECK_QUIET", None)
-        self.process = subprocess.Popen(
-            [sys.executable, "-c", code, *arguments], cwd=folder, env=environment,
-            stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True,
-        )  # fmt: skip
-        os.close(theirs)
-        self._terminal = ours
-        self._text = ""
-
-    def until(self, *words: str) -> str:
-        """What is said until some words, one after another."""
-        end = time.monotonic() + PATIENCE
-        said = ""
-        for word in words:
-            while word not in self._text:
-                ready, _, _ = select.select([self._terminal], [], [], end - time.monotonic())
-                assert ready, f"{word!r} was not said: {said + self._text}"
-                self._text += os.read(self._terminal, 1 << 16).decode().replace("\r\n", "\n")
-            before, found, self._text = self._text.partition(word)
-            said += before + found
-        return said
-
-    def interrupt(self) -> int:
-        self.process.send_signal(signal.SIGINT)
-        return self.process.wait(PATIENCE)
-
-    def close(self) -> None:
-        self.process.kill()
-        self.process.wait()
-        os.close(self._terminal)
 
 
 @pytest.fixture

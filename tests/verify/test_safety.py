@@ -26,7 +26,7 @@ from montecarlo_brdf.estimate import evaluate
 from montecarlo_brdf.estimate.estimators import directional_albedo
 from montecarlo_brdf.estimate.moments import BLOCK
 from montecarlo_brdf.verify import question
-from montecarlo_brdf.verify.supervision import Deadline, supervised
+from montecarlo_brdf.verify.supervision import Deadline, left_behind, supervised
 
 NEVER = "def f(wo, wi, p):\n    while True:\n        pass\n"
 SLEEPS = "import time\ndef f(wo, wi, p):\n    time.sleep(10)\n    return 0.3\n"
@@ -220,3 +220,14 @@ def test_where_a_file_lies_never_shows(tmp_path: Path) -> None:
         findings = [f for r in runs for result in r.results for f in result.findings]
         found.append([(f.quantity, f.value, f.stderr, f.verdict) for f in findings])
     assert repr(found[0]) == repr(found[1])
+
+
+def test_code_that_was_left_and_runs_on_is_counted() -> None:
+    before, held = left_behind(), threading.Lock()
+    with held:
+        assert not supervised(held.acquire, Deadline(0.1))  # no line of Python in which to end
+        assert left_behind() == before + 1
+    until = time.monotonic() + 10.0
+    while left_behind() > before and time.monotonic() < until:
+        time.sleep(0.01)
+    assert left_behind() == before
