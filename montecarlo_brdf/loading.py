@@ -10,7 +10,7 @@ import os
 import sys
 import traceback
 import types
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -62,6 +62,15 @@ def load(spec: str, **picks: str) -> Model:
         raise UserError(_no_model(spec))
     model = build(spec, namespace, built_in=spec in names())
     return model.variant(**picks) if picks else model
+
+
+def function(spec: str) -> Callable[..., Any]:
+    """The function of `file.py:name`, whatever it is for. Raises as `load` does."""
+    path, _, name = spec.rpartition(":")
+    found: Callable[..., Any] | None = vars(_from_file(Path(path))).get(name)
+    if found is None or not callable(found):
+        raise UserError(f"{path} has no function {name}")
+    return found
 
 
 def _no_model(spec: str) -> str:

@@ -25,7 +25,7 @@ FLOW = (
     ("judge",),
     ("truth",),
     ("checks",),
-    ("scene", "stability"),
+    ("scene", "stability", "table"),
     ("report",),
     ("verify",),
     ("cli",),

@@ -36,6 +36,7 @@ class Command(StrEnum):
     STRESS = "stress"
     COMPARE = "compare"
     IDENTITIES = "identities"
+    TABLE = "table"
     CHECK = "check"  # one result of a report
 
 

@@ -15,7 +15,7 @@ import montecarlo_brdf
 
 PACKAGE = Path(montecarlo_brdf.__file__).parent
 TABLE = PACKAGE.parent / "docs" / "statistics.md"
-FOLDERS = ("checks", "cases", "judge", "stability", "verify")
+FOLDERS = ("checks", "cases", "judge", "stability", "table", "verify")
 ESTIMATE = ("adaptive", "ascent", "ends", "plan", "quadrature", "trust")
 OTHERS = ("arithmetic/batch", "arithmetic/types", "sampling/slopes", "statistics")
 FILES = (*OTHERS, *(f"estimate/{name}" for name in ESTIMATE))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 KINDS = ("png", "svg", "pdf")
 #: command -> the module beside this one whose `figure(report)` draws its reports
 FIGURES = {Command.CONVERGE: "convergence", Command.FURNACE: "albedo"}
-FIGURES |= {Command.RADIANCE: "radiance", Command.STRESS: "stability"}
+FIGURES |= {Command.RADIANCE: "radiance", Command.STRESS: "stability", Command.TABLE: "table"}
 FIGURES |= dict.fromkeys((Command.COMPARE, Command.IDENTITIES, Command.RUN), "margins")
 
 
