@@ -10,6 +10,7 @@ from typing import Any
 from montecarlo_brdf.judge.finding import Report, Result, Verdict
 from montecarlo_brdf.report.text import case, explanation, line_of, most_telling, statement
 
+SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"  # code scanning wants a name of it
 LEVELS = {Verdict.ERROR: "error", Verdict.FAIL: "error"}
 LEVELS |= {Verdict.INCONCLUSIVE: "warning", Verdict.KNOWN: "note"}
 
@@ -18,7 +19,7 @@ def render(report: Report) -> str:
     """The report as one run of a tool."""
     told = [r for r in report.results if r.verdict in LEVELS]
     rules = list(dict.fromkeys(r.check for r in report.results))
-    driver: dict[str, Any] = {"name": "brdf-check", "rules": [{"id": name} for name in rules]}
+    driver: dict[str, Any] = {"name": "brdf-check", "rules": list(map(_rule, rules))}
     if version := report.to_dict()["versions"].get("montecarlo_brdf"):
         driver["version"] = version
     run = {
@@ -26,7 +27,16 @@ def render(report: Report) -> str:
         "columnKind": "utf16CodeUnits",
         "results": [_result(r, rules.index(r.check)) for r in told],
     }
-    return json.dumps({"version": "2.1.0", "runs": [run]}, indent=1) + "\n"
+    log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+    return json.dumps(log, indent=1) + "\n"
+
+
+def _rule(check: str) -> dict[str, Any]:
+    """A check, with the words that code scanning shows above its results."""
+    words = f"the check {check} of brdf-check"
+    help = f"brdf-check run --check {check} asks it again; brdf-check docs statistics explains."
+    told = {"shortDescription": words, "fullDescription": words, "help": help}
+    return {"id": check, **{name: {"text": text} for name, text in told.items()}}
 
 
 def _result(result: Result, rule: int) -> dict[str, Any]:

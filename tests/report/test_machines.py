@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -76,24 +77,46 @@ def failing(verdict: Verdict) -> Finding:
     return Finding("A <= 1", {}, verdict, Bound.AT_MOST, 1.5, 0.0, 1.0, 1e-5, samples=4, hint="pi")
 
 
-def test_sarif() -> None:
+def sarif_rows() -> list[Result]:
     source = {"file": "my brdf.py", "line": 3, "functions": {"f": 3, "sample": 9}}
-    rows = [
+    return [
         Result("my brdf.py", {}, "energy", [failing(Verdict.FAIL)] * 3, [], source),
         Result("my brdf.py", {}, "sampling", [failing(Verdict.KNOWN)], [], source),
         Result("ggx", {}, "furnace", [failing(Verdict.PASS)]),
         Result("", {}, "identities", [failing(Verdict.INCONCLUSIVE)]),
-    ]
-    found = json.loads(formats.render(Report(Command.RUN, {}, rows), "sarif"))
+        Result("/a b/<x>.py", {}, "load", [failing(Verdict.ERROR)], [],
+               {"file": "/a b/<x>.py", "line": 0}),
+    ]  # fmt: skip
+
+
+def test_sarif() -> None:
+    found = json.loads(formats.render(Report(Command.RUN, {}, sarif_rows()), "sarif"))
     (run,) = found["runs"]
     rules = run["tool"]["driver"]["rules"]
     assert found["version"] == "2.1.0" and run["tool"]["driver"]["name"] == "brdf-check"
-    assert [r["level"] for r in run["results"]] == ["error", "note", "warning"]
+    assert [r["level"] for r in run["results"]] == ["error", "note", "warning", "error"]
     assert all(rules[r["ruleIndex"]]["id"] == r["ruleId"] for r in run["results"])
     places = [r["locations"][0]["physicalLocation"] for r in run["results"] if "locations" in r]
-    assert [p["region"]["startLine"] for p in places] == [3, 9]
-    assert places[0]["artifactLocation"]["uri"] == "my%20brdf.py"
+    assert [p["region"]["startLine"] for p in places] == [3, 9, 1]
+    uris = [p["artifactLocation"]["uri"] for p in places]
+    assert uris == ["my%20brdf.py", "my%20brdf.py", "file:///a%20b/%3Cx%3E.py"]
     assert "A <= 1: found 1.5(0)" in run["results"][0]["message"]["text"]
+
+
+#: sarif-schema-2.1.0.json of github.com/oasis-tcs/sarif-spec, which is not ours to copy
+OFFICIAL = os.environ.get("SARIF_SCHEMA", "")
+
+
+@pytest.mark.skipif(not OFFICIAL, reason="SARIF_SCHEMA names no sarif-schema-2.1.0.json")
+def test_sarif_follows_the_official_schema() -> None:
+    official = json.loads(Path(OFFICIAL).read_text(encoding="utf-8"))
+    asked = jsonschema.validators.validator_for(official)
+    validator = asked(official, format_checker=asked.FORMAT_CHECKER)
+    for rows in (sarif_rows(), []):
+        found = json.loads(formats.render(Report(Command.RUN, {}, rows), "sarif"))
+        validator.validate(found)
+        found["runs"][0]["tool"]["driver"].pop("name")
+        assert not validator.is_valid(found)
 
 
 def test_junit_tells_how_long_it_took(cli: Call) -> None:
