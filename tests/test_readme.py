@@ -68,6 +68,11 @@ def test_an_old_block_is_seen(script: ModuleType) -> None:
     assert not script.same(new, old) and "brdf-check, version" in new
 
 
+def test_how_long_the_tests_take_is_said_beside_their_command() -> None:
+    beside = README.split("python -m pytest\n```\n")[1].strip().split("\n\n")[0]
+    assert re.search(r"tests take .*minutes", beside)
+
+
 def test_a_failing_run_comes_first() -> None:
     first = README.split("```console\n")[1].split("```")[0]
     assert "1.5707963(0)" in first

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import io
 import itertools
 import math
 import os
 import secrets
 import shlex
+import tokenize
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
@@ -547,9 +549,17 @@ def sources(report: Report) -> dict[str, str]:
     found = {}
     for name in files:
         with contextlib.suppress(OSError):
-            content = Path(name).read_bytes()[:MOST_SOURCE]
-            found[name] = content.decode("utf-8", errors="replace")
+            found[name] = _decoded(Path(name).read_bytes()[:MOST_SOURCE])
     return found
+
+
+def _decoded(content: bytes) -> str:
+    """A source by the encoding that it declares, as Python reads it; what is none is replaced."""
+    try:
+        encoding, _ = tokenize.detect_encoding(io.BytesIO(content).readline)
+    except SyntaxError:
+        encoding = "utf-8"
+    return content.decode(encoding, errors="replace")
 
 
 def errors(report: Report) -> list[Finding]:

@@ -298,6 +298,7 @@ def estimated(means: Array, samples: int) -> Estimate:
 
     Nodes of a net are not independent: what single values say of the spread is nothing.
     """
-    each, size = float(samples // len(means)), float(np.max(np.abs(means)))
+    each = float(max(1, samples // len(means)))  # as `nodes_of` cuts them
+    size = float(np.max(np.abs(means)))
     size = size if 0.0 < size < math.inf else 1.0  # squares of what is huge are no numbers
     return estimate([Moments(each, m, 0.0, m) for m in map(float, means / size)]).times(size)

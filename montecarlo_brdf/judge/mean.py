@@ -345,6 +345,8 @@ def _row(claim: MeanClaim, opinion: Opinion) -> dict[str, object]:
     }  # fmt: skip
     if m.unfit:
         row["not_used"] = m.unfit
+    elif opinion.verdict == Verdict.INCONCLUSIVE and math.isinf(opinion.half_width):
+        row["not_used"] = "so few samples show no error"
     elif opinion.verdict == Verdict.INCONCLUSIVE and m.bound is not None:
         row["not_used"] = f"resolves only {opinion.half_width:.1e}"
     elif opinion.verdict == Verdict.INCONCLUSIVE:
@@ -374,6 +376,8 @@ def _note(claim: MeanClaim, verdict: Verdict, opinions: Opinions) -> str | None:
     if fit:
         best = min(fit, key=lambda o: _more(claim, o))
         told = f"undecided at {fit[0].measurement.estimate.samples} samples"
+        if math.isinf(best.half_width):
+            return f"{told}, which show no error: allow more with --samples"
         if math.isinf(_more(claim, best)):
             return f"{told}: the reference is no more exact than the tolerance, or nothing varied"
         return f"{told}: {_needs(claim, best)}, allow more with --samples"

@@ -264,9 +264,14 @@ def _finding(f: Finding, places: list[str]) -> Row:
         f.number,
         "" if f.expected is None else f"{sign}{f.expected:.8g}",
         "" if f.tolerance is None else f"{f.tolerance:.1e}",
-        "" if f.resolves is None else f"{f.resolves:.1e}", f.estimator or "",
+        "" if f.resolves is None else resolved(f.resolves), f.estimator or "",
         f.verdict if f.verdict == Verdict.PASS else f.verdict.upper(),
     )  # fmt: skip
+
+
+def resolved(deviation: float) -> str:
+    """The deviation that would have been refuted, if there is one."""
+    return "nothing" if math.isinf(deviation) else f"{deviation:.1e}"
 
 
 def _attention(result: Result, verbose: bool) -> Iterator[Sentence]:

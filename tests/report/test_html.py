@@ -161,14 +161,69 @@ def test_pages_of_other_commands(cli: Call, tmp_path: Path) -> None:
         assert faults(page.read_text(encoding="utf-8")) == []
 
 
+BODY = "def f(wo, wi, p):\n    return 0.1  # größe\n"
+SOURCES = {
+    "declared": b"# -*- coding: latin-1 -*-\n" + BODY.encode("latin-1"),
+    "not declared": BODY.encode("latin-1"),
+    "a byte order mark": BODY.encode("utf-8-sig"),
+    "utf-8": BODY.encode("utf-8"),
+}
+
+
+@pytest.mark.parametrize("kind", SOURCES)
 def test_sources_in_other_encodings(
+    kind: str, cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("my.py").write_bytes(SOURCES[kind])
+    line = ("furnace", "--model", "my.py", "--theta-o", 0, "--export", "page.html")
+    assert cli(*line).code == 0
+    page = Path("page.html").read_text(encoding="utf-8")
+    shown = "gr\ufffd\ufffde" if kind == "not declared" else "größe"
+    assert faults(page) == [] and shown in page and "\ufeff" not in page
+
+
+def test_a_source_of_an_encoding_that_python_refuses(cli: Call, tmp_path: Path) -> None:
+    path = tmp_path / "my.py"
+    path.write_bytes(BODY.encode("utf-16"))
+    outcome = cli("furnace", "--model", path, "--export", tmp_path / "page.html")
+    assert outcome.code == 4 and outcome.err.count("\n") == 1 and str(path) in outcome.err
+    assert not (tmp_path / "page.html").exists()
+
+
+def test_a_file_with_an_evil_name(
     cli: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    text = "# -*- coding: latin-1 -*-\n# gr\u00f6\u00dfe\ndef f(wo, wi, p):\n    return 0.1\n"
-    Path("latin.py").write_bytes(text.encode("latin-1"))
-    line = ("furnace", "--model", "latin.py", "--theta-o", 0, "--export", "page.html")
-    assert cli(*line).code == 0 and faults(Path("page.html").read_text(encoding="utf-8")) == []
+    Path(EVIL).parent.mkdir()
+    Path(EVIL).write_text(MISSING_PI, encoding="utf-8")
+    exports = [f"--export=r.{kind}" for kind in ("html", "md", "xml", "sarif")]
+    line = ("furnace", "--model", EVIL, "--theta-o", "0", *exports)
+    assert cli(*line).code == 1
+    page = Path("r.html").read_text(encoding="utf-8")
+    assert faults(page) == [] and page.count("<script>") == 1
+    assert f"{EVIL}(c=0.5)" in text_of(page) and shlex.quote(EVIL) in text_of(page)
+    assert all("<script>" not in Path(f"r.{kind}").read_text() for kind in ("md", "xml"))
+    assert "%3Cscript%3E" in Path("r.sarif").read_text()
+
+
+def test_a_page_that_cannot_be_written(cli: Call, tmp_path: Path) -> None:
+    (tmp_path / "page.html").mkdir()
+    for name in ("page.html", "none/page.html"):
+        outcome = cli("furnace", "--model", "lambert", "--export", tmp_path / name)
+        assert outcome.code == 5 and outcome.err.count("\n") == 1 and not outcome.out
+    assert [p.name for p in tmp_path.iterdir()] == ["page.html"]
+
+
+@pytest.mark.parametrize("schema", [0, 99, None, "1"])
+def test_reports_of_other_schemas(schema: object, cli: Call, tmp_path: Path) -> None:
+    path = tmp_path / "old.json"
+    path.write_text(json.dumps({"schema": schema, "command": "run", "results": []}))
+    run = ("run", "--model", "lambert", "--baseline", path)
+    for line in (("report", path, "-o", tmp_path / "x.html"), run):
+        outcome = cli(*line)
+        assert outcome.code == 2 and "this version reads schema 1" in outcome.err
+        assert outcome.err.count("\n") == 1 and not outcome.out
 
 
 def never_run(lines: str, **where: str) -> Finding:
