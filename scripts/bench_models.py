@@ -85,7 +85,7 @@ def caller(made: Made) -> Callable[[], float]:
 
 def mix(made: Made) -> dict[str, int]:
     """Counts of instructions in the kernel's machine code."""
-    text = compiler.assembly(made.kernel.assembled())
+    text = compiler.assembly(made.kernel.module())
     return {
         "calls": len(re.findall(r"^\s+call", text, re.M)),
         "zmm": len(re.findall(r"^\s+v\w+pd.*zmm", text, re.M)),

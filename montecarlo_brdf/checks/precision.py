@@ -19,7 +19,7 @@ import numpy as np
 
 from montecarlo_brdf.cases import directions
 from montecarlo_brdf.cases.case import Case, Parameters, pointwise
-from montecarlo_brdf.compile.bind import Bound, bound, hole
+from montecarlo_brdf.compile.bind import Bound, Called, bound, hole
 from montecarlo_brdf.estimate import quantity, trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.places import Pointwise
@@ -112,14 +112,15 @@ def _sampler(model: Model) -> Sampler:
 
 def _albedos(model: Model, single: Functions) -> Pair:
     """A."""
-    change = bound(moved, SINGLE=single["f"], DOUBLE=model.f)
-    return _pair(model, functions_of(model), change)
+    double = functions_of(model)
+    return _pair(model, double, bound(moved, SINGLE=Called(single["f"]), DOUBLE=double["F"]))
 
 
 def _masses(model: Model, single: Functions) -> Pair:
     """int pdf, by the draws of the double version."""
-    change = bound(moved_per_cosine, SINGLE=single["pdf"], DOUBLE=model.pdf)
-    return _pair(model, functions_of(model), change)
+    double, single_pdf = functions_of(model), Called(single["pdf"])
+    change = bound(moved_per_cosine, SINGLE=single_pdf, DOUBLE=double["PDF"])
+    return _pair(model, double, change)
 
 
 def _pair(model: Model, functions: dict[str, Any], change: Bound) -> Pair:

@@ -25,8 +25,17 @@ STRICT = "STRICT"
 GLOBAL_LOADS = ("LOAD_GLOBAL", "LOAD_NAME", "LOAD_FROM_DICT_OR_GLOBALS")
 
 
+class Called(NamedTuple):
+    """A function of a model where a template calls it: with `vectors` triples of numbers and the
+    parameters, which the template itself never looks at."""
+
+    function: Function
+    vectors: int = 2
+
+
 def plain(value: object) -> Any:
-    """The Python function behind a numba dispatcher; anything else as it is."""
+    """The Python function behind a numba dispatcher or a call; anything else as it is."""
+    value = value.function if isinstance(value, Called) else value
     return getattr(value, "py_func", value)
 
 
@@ -92,7 +101,7 @@ def _fills(value: object, name: str, names: Mapping[str, object]) -> bool:
 
 
 @functools.lru_cache(maxsize=256)
-def takes_more(function: Function | None, place: int, count: int) -> bool:
+def takes_more(function: Function | Called | None, place: int, count: int) -> bool:
     """Whether `function` may use more than the first `count` elements of the argument at `place`.
 
     Only the plainest use proves that it does not: `u[0]`, `u[1]` in its own code and no other.

@@ -1,10 +1,10 @@
-"""Compiled kernels on disk: one file each, named by the hash of everything it depends on, so that a
-stored one can never be stale.
+"""Compiled kernels on disk, and parts of them: one file each, named by the hash of everything it
+depends on, so that a stored one can never be stale.
 
-A file is a digest and an object file. It is written beside its final name and moved there, so two
-processes that compile the same kernel at once cannot disturb each other; a damaged file does not
-match its digest and counts as absent; a cache that cannot be written is not an error, only slow.
-Folders that are only read may lie below the one that is written (`compile.folders`).
+A file is a digest and an object file, or bitcode. It is written beside its final name and moved
+there, so two processes that compile the same kernel at once cannot disturb each other; a damaged
+file does not match its digest and counts as absent; a cache that cannot be written is not an error,
+only slow. Folders that are only read may lie below the one that is written (`compile.folders`).
 Beside them lie notes: files of lines, each with its digest, to which any process may add.
 """
 from __future__ import annotations

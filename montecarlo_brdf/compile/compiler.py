@@ -6,11 +6,13 @@ convention around it, whose returned status is not 0 when the function raised.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from typing import Any
 
-from montecarlo_brdf.compile import linking, native
-from montecarlo_brdf.compile.bind import is_strict
+from montecarlo_brdf.compile import linking, native, twins
+from montecarlo_brdf.compile.bind import Bound, Specialiser, is_strict
+from montecarlo_brdf.compile.external import Kind, argument_types, kind_of
 
 Function = Callable[..., Any]
 
@@ -56,6 +58,17 @@ def part(function: Function) -> Any:
     return _jit(function, **INLINE, pipeline_class=linking.pipeline())
 
 
+@functools.cache
+def specialiser(compile_one: Callable[[Function], Any] = part) -> Specialiser:
+    """One for the process, so that kernels share the functions they have in common."""
+    return Specialiser(compile_one, twins.compiled_twins())
+
+
+def assembled(template: Bound, compile_one: Callable[[Function], Any] = part) -> Function:
+    """A template with its holes filled by what `compile_one` makes."""
+    return specialiser(compile_one).clone(template.function, dict(template.names))
+
+
 def is_mistake(error: Exception) -> bool:
     """Whether numba complains about what a user's function does, not about itself."""
     from numba.core import errors
@@ -63,17 +76,30 @@ def is_mistake(error: Exception) -> bool:
     return isinstance(error, (errors.TypingError, errors.UnsupportedError))
 
 
-def object_file(function: Function) -> bytes:
-    """`function(ints, reals, out)`, specialised from parts, as an object file.
+def object_file(module: Any) -> bytes:
+    """An LLVM module with the entry of a kernel as an object file.
 
-    Raises NeedsRuntime if it needs more than libc, and numba's own errors if it does not compile.
+    Raises NeedsRuntime if it needs more than libc.
     """
-    return bytes(native.machine().emit_object(_module(function)))
+    _finish(module)
+    return bytes(native.machine().emit_object(module))
 
 
-def assembly(function: Function) -> str:
+def assembly(module: Any) -> str:
     """The same as assembly text, to look at the instructions of a loop."""
-    return str(native.machine().emit_assembly(_module(function)))
+    _finish(module)
+    return str(native.machine().emit_assembly(module))
+
+
+def _finish(module: Any) -> None:
+    native.optimise(module)
+    missing = sorted(
+        f.name
+        for f in module.functions
+        if f.is_declaration and not f.name.startswith("llvm.") and f.name not in LIBC
+    )
+    if missing:
+        raise NeedsRuntime(", ".join(missing))
 
 
 def by_numba(function: Function) -> native.Entry:
@@ -94,26 +120,30 @@ def by_numba(function: Function) -> native.Entry:
     return native.plain(entry.address or 0, entry)
 
 
-def _module(function: Function) -> Any:
-    """The LLVM module with nothing but the entry and what it needs of libc."""
-    overload = _overload(function, **KERNEL, pipeline_class=linking.pipeline())
-    module = linking.linked(overload.library, overload.fndesc.llvm_func_name, native.ENTRY)
-    missing = sorted(
-        f.name
-        for f in module.functions
-        if f.is_declaration and not f.name.startswith("llvm.") and f.name not in LIBC
-    )
-    if missing:
-        raise NeedsRuntime(", ".join(missing))
-    return module
+def entry_module(function: Function) -> Any:
+    """`function(ints, reals, out)`, specialised from parts, and all it reaches as an LLVM module.
+
+    Raises numba's own errors if it does not compile.
+    """
+    return _module(function, native.ENTRY, _pointers(), KERNEL)[1]
 
 
-def _overload(function: Function, **options: Any) -> Any:
-    import numba
+def unit_module(function: Function, vectors: int) -> tuple[Kind, Any]:
+    """A function of a model, as templates call it, likewise, and what it returns.
 
-    dispatcher = _jit(function, numba.void(*_pointers()), **options)
+    Raises Unknown if that is no number and no tuple of such.
+    """
+    returns, module = _module(function, native.ENTRY, argument_types(vectors), INLINE)
+    return kind_of(returns), module
+
+
+def _module(
+    function: Function, entry: str, types: tuple[Any, ...], options: dict[str, bool]
+) -> tuple[Any, Any]:
+    dispatcher = _jit(function, types, **options, pipeline_class=linking.pipeline())
     (overload,) = dispatcher.overloads.values()
-    return overload
+    name = overload.fndesc.llvm_func_name
+    return overload.signature.return_type, linking.linked(overload.library, name, entry)
 
 
 def _jit(function: Function, *signature: Any, **more: Any) -> Any:

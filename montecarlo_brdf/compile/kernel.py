@@ -1,8 +1,8 @@
 """A kernel: a template with everything bound, compiled when it is first called.
 
-Machine code is found in memory, then on disk, else made by our own use of numba and LLVM
-(`compiler`). Where that breaks, as it may with another release of either, numba compiles by its
-public way: slower, not stored, and said once.
+Machine code is found in memory, then on disk, else made by our own use of numba and LLVM: of parts
+that are kept (`bitcode`), else as a whole (`compiler`). Where that breaks, as it may with another
+release of either, numba compiles by its public way: slower, not stored, and said once.
 """
 from __future__ import annotations
 
@@ -14,12 +14,11 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from montecarlo_brdf.compile import cache, compiler, layout, linking, native, twins
-from montecarlo_brdf.compile.bind import Bound, Function, Specialiser, bound
-from montecarlo_brdf.compile.cache import Fingerprint
+from montecarlo_brdf.compile import bitcode, cache, compiler, native
+from montecarlo_brdf.compile.bind import Bound, Function, bound
+from montecarlo_brdf.compile.external import Unknown
 from montecarlo_brdf.errors import ModelError, Raised, UserError
 
 if TYPE_CHECKING:
@@ -48,9 +47,7 @@ class Kernel:
     @functools.cached_property
     def key(self) -> str:
         """Hash of everything the machine code depends on."""
-        content = Fingerprint()
-        content.add((native.identity(), _sources(), self._template))
-        return content.hexdigest()
+        return bitcode.name_of(self._template)
 
     @property
     def entry(self) -> native.Entry:
@@ -110,13 +107,24 @@ class Kernel:
         if not image:
             for hear in listeners:
                 hear(self._model)
-            image = compiler.object_file(self.assembled(compiler.part))
+            image = compiler.object_file(self.module())
             cache.write(self.key, image)
         return native.load(image)
 
+    def module(self) -> Any:
+        """The LLVM module: of parts that are kept, else of the whole."""
+        try:
+            return bitcode.module_of(self._template)
+        except Unknown:
+            return compiler.entry_module(self.assembled())
+        except Exception as error:
+            if not compiler.is_mistake(error):
+                raise
+            return compiler.entry_module(self.assembled())  # what is wrong with it is told better
+
     def assembled(self, compile_one: Callable[[Function], Any] = compiler.part) -> Function:
         """The template with its holes filled by what `compile_one` makes."""
-        return specialiser(compile_one).clone(self._template.function, dict(self._template.names))
+        return compiler.assembled(self._template, compile_one)
 
     def _mistake(self, error: Exception) -> ModelError:
         return ModelError(f"model {self._model} does not compile: {_first_reason(error)}")
@@ -132,19 +140,6 @@ def kernel(model: str, template: Function, **names: object) -> Kernel:
     """The kernel of a template with names bound, for the functions of a model; one in a process."""
     parts = bound(template, **names)
     return _kernels.get(parts) or _kernels.setdefault(parts, Kernel(parts, model))
-
-
-@functools.cache
-def specialiser(compile_one: Callable[[Function], Any] = compiler.compiled) -> Specialiser:
-    """One for the process, so that kernels share the functions they have in common."""
-    return Specialiser(compile_one, twins.compiled_twins())
-
-
-@functools.cache
-def _sources() -> tuple[bytes, ...]:
-    """The files that say how code is generated, as opposed to what it computes."""
-    modules = (twins, compiler, linking, native, layout)
-    return tuple(Path(str(m.__file__)).read_bytes() for m in modules)
 
 
 _told: list[Exception] = []

@@ -78,11 +78,12 @@ def pack(channels: Sequence[Numbers], first: int) -> tuple[Layout, list[float]]:
 
 def following(shape: Shape, first: int) -> Layout:
     """The layout of one parameter set of a shape whose numbers start at place `first`."""
-    return Layout(shape, (tuple(range(first, first + _count(shape))),))
+    return Layout(shape, (tuple(range(first, first + size_of(shape))),))
 
 
-def _count(shape: Shape) -> int:
-    return 1 if shape is None else sum(_count(s) for s in shape[1])
+def size_of(shape: Shape) -> int:
+    """How many numbers a value of this shape has."""
+    return 1 if shape is None else sum(map(size_of, shape[1]))
 
 
 @dataclass(frozen=True)

@@ -90,18 +90,22 @@ def _skip_linear_algebra() -> None:
 
 
 def linked(library: Any, name: str, entry: str) -> Any:
-    """One optimised LLVM module: function `name` of a part, called `entry`, and what it reaches."""
+    """One LLVM module: function `name` of a part, called `entry`, and what it reaches."""
     module = library._final_module
     for other in _reached(library):
         module.link_in(other._get_module_for_linking(), preserve=True)
     for function in module.functions:
         if function.name == name:
             function.name = entry
-            function.linkage = "external"
-        elif not function.is_declaration:
-            function.linkage = "internal"
-    library._optimize_final_module()
+    hide(module, entry)
     return module
+
+
+def hide(module: Any, entry: str) -> None:
+    """Leave nothing but the entry to be seen from outside."""
+    for value in (*module.functions, *module.global_variables):
+        if not value.is_declaration:
+            value.linkage = "external" if value.name == entry else "internal"
 
 
 def _reached(library: Any) -> Iterator[Any]:

@@ -88,6 +88,30 @@ def plain(address: int, owner: object) -> Entry:
     return entry
 
 
+def optimise(module: Any) -> None:
+    """Make good code of an LLVM module."""
+    binding, target = _llvm(), machine()
+    options = binding.create_pipeline_tuning_options(speed_level=0)
+    options.loop_vectorization = options.slp_vectorization = False
+    builder = binding.create_pass_builder(target, options)
+    passes = builder.getModulePassManager()
+    passes.add_loop_rotate_pass()
+    passes.add_instruction_combine_pass()
+    passes.add_jump_threading_pass()
+    passes.run(module, builder)
+    options = binding.create_pipeline_tuning_options(speed_level=3)
+    options.loop_vectorization, options.slp_vectorization = True, False
+    builder = binding.create_pass_builder(target, options)
+    passes = builder.getModulePassManager()
+    passes.run(module, builder)
+
+
+def parsed(code: str | bytes) -> Any:
+    """The LLVM module of a text or of bitcode. Raises RuntimeError for anything else."""
+    binding = _llvm()
+    return binding.parse_assembly(code) if isinstance(code, str) else binding.parse_bitcode(code)
+
+
 def machine() -> Any:
     """LLVM's description of this processor, to generate code for it."""
     binding = _llvm()

@@ -17,6 +17,7 @@ from montecarlo_brdf.bits import u64
 from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Buffer, Unpack, pack
+from montecarlo_brdf.estimate.samplers import functions_of
 from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.sampling.points import independent_axis
 from montecarlo_brdf.sampling.slopes import coordinates, direction
@@ -136,7 +137,7 @@ def counted(
     reals = np.concatenate([numbers, cut.numbers])
     signed = key - (1 << 64) if key >> 63 else key
     names = {"PARAMETERS": Unpack(layout), "LINE": Buffer(TOGETHER)}
-    call = kernel(model.name, counts, SAMPLE=model.sample, **names)
+    call = kernel(model.name, counts, SAMPLE=functions_of(model)["SAMPLE"], **names)
 
     def share(start: int, stop: int) -> Array:
         out = np.zeros(ROWS * COLUMNS + 1)
@@ -169,7 +170,7 @@ def tabulated(
 
     layout, numbers = pack([model.prepared(p)], 0)
     names = {"PARAMETERS": Unpack(layout), "LINE": Buffer(TOGETHER)}
-    call = kernel(model.name, densities, PDF=model.pdf, **names)
+    call = kernel(model.name, densities, PDF=functions_of(model)["PDF"], **names)
     reals = np.concatenate([numbers, place])
     found, directions = [], []
     for first, n in call.pieces(size[0] * size[1]):

@@ -15,7 +15,7 @@ from montecarlo_brdf.compile.bind import Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import kernel
 from montecarlo_brdf.compile.layout import Unpack, pack
 from montecarlo_brdf.estimate.quantity import Quantity
-from montecarlo_brdf.estimate.samplers import integrand, samplers_of
+from montecarlo_brdf.estimate.samplers import functions_of, integrand, samplers_of
 from montecarlo_brdf.model import Model, Prepared
 from montecarlo_brdf.sampling.charts import Row
 from montecarlo_brdf.sampling.directions import Given, Sampler
@@ -86,7 +86,8 @@ def _rows(model: Model, ready: Prepared, wo: Vec) -> list[list[tuple[float, floa
     layout, numbers = pack([ready], 0)
     known = Sampler.OWN in samplers_of(model)
     weight = integrand(model, Quantity.ALBEDO, Sampler.OWN).template if known else unknown
-    names = {"SAMPLE": model.sample, "PARAMETERS": Unpack(layout), "INTEGRAND": weight}
+    sample = functions_of(model)["SAMPLE"]
+    names = {"SAMPLE": sample, "PARAMETERS": Unpack(layout), "INTEGRAND": weight}
     n = ROWS * OCTAVES
     ints = array("q", (n, len(numbers)))
     reals = array("d", (*numbers, *wo, *_numbers()))

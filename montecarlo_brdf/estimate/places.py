@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-from montecarlo_brdf.compile.bind import Function, Ints, Out, Reals, hole
+from montecarlo_brdf.compile.bind import Called, Function, Ints, Out, Reals, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import (
     Buffer,
@@ -22,7 +22,7 @@ from montecarlo_brdf.compile.layout import (
     shape_of,
 )
 from montecarlo_brdf.estimate.quantity import Quantity
-from montecarlo_brdf.estimate.samplers import integrand, samplers_of, weighted
+from montecarlo_brdf.estimate.samplers import functions_of, integrand, samplers_of, weighted
 from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.sampling.directions import Sampler
 
@@ -159,14 +159,15 @@ def rows_of(model: Model, base: ParameterSet, table: Array) -> Rows:
 def values_of(model: Model, function: Function, wo: ArrayLike, wi: ArrayLike, sets: Rows) -> Array:
     """f or pdf of a model, in 1/sr: (n,) values for (n, 3) directions, each pair with parameters of
     its own or all with one set; wo or wi may be a single one."""
-    return _run(model, values, wo, wi, sets, 1, FUNCTION=function)[:, 0]
+    return _run(model, values, wo, wi, sets, 1, FUNCTION=Called(function))[:, 0]
 
 
 def draws_of(model: Model, wo: ArrayLike, u: ArrayLike, sets: Rows) -> tuple[Array, Array]:
     """Directions (n, 3) drawn for numbers u (n, 3), and their weights, NaN where none is
     returned."""
     write = write_weighted if weighted(model) else write_direction
-    out = _run(model, draws, wo, u, sets, DRAWN, FUNCTION=model.sample, WRITE=write)
+    sample = functions_of(model)["SAMPLE"]
+    out = _run(model, draws, wo, u, sets, DRAWN, FUNCTION=sample, WRITE=write)
     return out[:, :3], out[:, 3]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from typing import Any, NamedTuple
 
+from montecarlo_brdf.compile.bind import Called
 from montecarlo_brdf.errors import UserError, unknown
 from montecarlo_brdf.estimate import probe, quantity
 from montecarlo_brdf.estimate.quantity import Integrand, Quantity
@@ -77,7 +78,12 @@ def identity_of(model: Model, p: ParameterSet) -> tuple[str, ...]:
     return (model.identity, *model.picks.values(), *map(repr, p))
 
 
-def functions_of(model: Model) -> dict[str, Any]:
+def functions_of(model: Model) -> dict[str, Called]:
     """The functions that a model has, by the names under which integrands call them."""
+    return {name: Called(function) for name, function in members_of(model).items()}
+
+
+def members_of(model: Model) -> dict[str, Any]:
+    """The same for integrands that look at parameters themselves."""
     bound = {"F": model.f, "SAMPLE": model.sample, "PDF": model.pdf}
     return {k: v for k, v in bound.items() if v is not None}

@@ -15,7 +15,7 @@ from montecarlo_brdf.compile.bind import Ints, Out, Reals, bound, hole
 from montecarlo_brdf.compile.kernel import Kernel, kernel
 from montecarlo_brdf.compile.layout import Numbers, Unpack, pack
 from montecarlo_brdf.estimate.plan import Progress
-from montecarlo_brdf.estimate.samplers import functions_of
+from montecarlo_brdf.estimate.samplers import members_of
 from montecarlo_brdf.sampling import points as point_sets
 from montecarlo_brdf.sampling.points import replicate_key
 from montecarlo_brdf.scene import integrands, skies
@@ -97,7 +97,7 @@ def pixels(ints: Ints, reals: Reals, out: Out) -> None:
 def kernel_of(work: Work) -> tuple[Kernel, list[float]]:
     """The kernel of a planned work, and its parameters' numbers."""
     model, sky = work.model, skies.FUNCTIONS[type(work.sets[0][1])]
-    names = {**functions_of(model), "SKY": bound(placed_value, INNER=sky.radiance)}
+    names = {**members_of(model), "SKY": bound(placed_value, INNER=sky.radiance)}
     if sky.sample:
         names["SKY_SAMPLE"] = bound(placed_sample, INNER=sky.sample)
         names["SKY_PDF"] = bound(placed_value, INNER=sky.pdf)

@@ -12,7 +12,7 @@ from montecarlo_brdf.estimate import probe, trust
 from montecarlo_brdf.estimate.evaluate import evaluate
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.estimate.quantity import Integrand
-from montecarlo_brdf.estimate.samplers import Subject, functions_of, weighted
+from montecarlo_brdf.estimate.samplers import Subject, members_of, weighted
 from montecarlo_brdf.estimate.trust import Measurement
 from montecarlo_brdf.model import Model, ParameterSet, Prepared
 from montecarlo_brdf.sampling.points import DIMENSIONS
@@ -134,7 +134,7 @@ def _estimate(work: Work, wo: Vec, sampling: Plan) -> list[tuple[Estimate, str |
     model = work.model
     sky = skies.FUNCTIONS[type(work.sets[0][1])]
     functions = {
-        **functions_of(model),
+        **members_of(model),
         "SKY": sky.radiance,
         "SKY_SAMPLE": sky.sample or integrands.cosine_sample,
         "SKY_PDF": sky.pdf or integrands.cosine_pdf,

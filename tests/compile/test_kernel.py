@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import montecarlo_brdf as mb
-from montecarlo_brdf.compile import cache, compiler, kernel, linking, native
+from montecarlo_brdf.compile import bitcode, cache, compiler, kernel, linking, native
 from montecarlo_brdf.compile.cache import Fingerprint
 from montecarlo_brdf.compile.kernel import Kernel
 from montecarlo_brdf.compile.layout import pack
@@ -27,12 +27,18 @@ from montecarlo_brdf.estimate.samplers import integrand
 @pytest.fixture
 def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
     """A process in which nothing was compiled, and an empty cache."""
-    monkeypatch.setattr(kernel, "_kernels", {})
     monkeypatch.setattr(kernel, "_told", [])
     monkeypatch.setenv("BRDF_CHECK_CACHE_DIR", str(tmp_path / "kernels"))
-    kernel.specialiser.cache_clear()
+    forget(monkeypatch)
     yield
-    kernel.specialiser.cache_clear()
+    compiler.specialiser.cache_clear()
+
+
+def forget(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever this process has compiled."""
+    monkeypatch.setattr(kernel, "_kernels", {})
+    monkeypatch.setattr(bitcode, "_parts", {})
+    compiler.specialiser.cache_clear()
 
 
 def gone(*_: Any, **__: Any) -> Any:
@@ -59,8 +65,7 @@ def test_a_compiler_that_breaks_is_no_mistake_of_the_user(
     model = mb.load(str(user_file("def f(wo, wi, p):\n    return 0.1 + 0.1 * wi[2]\n")))
     usual = directional_albedo(model, model.parameters(), 45.0, sampler="cosine", samples=1 << 10)
     monkeypatch.setenv("BRDF_CHECK_CACHE_DIR", str(tmp_path / "empty"))
-    monkeypatch.setattr(kernel, "_kernels", {})
-    kernel.specialiser.cache_clear()
+    forget(monkeypatch)
     monkeypatch.setattr(module, name, gone)
     found = directional_albedo(model, model.parameters(), 45.0, sampler="cosine", samples=1 << 10)
     assert capsys.readouterr().err.count("numba's public way") == 1
