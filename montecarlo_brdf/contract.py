@@ -188,6 +188,7 @@ def build(
     options = [_parts(c, choices[c][pick]) for c, pick in picks.items()]
     bound = _rebound(namespace, {k: v for o in options for k, v in o.functions.items()})
     given |= {k: bound[k] for k in (*FUNCTIONS, "albedo") if k in given}
+    given["whole"] = _whole(given.get("Params", NoParams))
     given["Params"] = params = _params_of(given.get("Params", NoParams), options, picks)
     for member in ("domain", "disclaims"):
         added = [getattr(option, member) for option in options]
@@ -205,6 +206,12 @@ def build(
         rebuild=lambda new: build(name, namespace, new, built_in),
         **given,
     )
+
+
+def _whole(params: type[ParameterSet]) -> frozenset[str]:
+    """Parameters that a file declares as int or bool: counts and switches."""
+    kinds = {n: getattr(a, "__forward_arg__", a) for n, a in params.__annotations__.items()}
+    return frozenset(n for n, a in kinds.items() if getattr(a, "__name__", a) in ("int", "bool"))
 
 
 def _is_helper(member: str, value: object) -> bool:

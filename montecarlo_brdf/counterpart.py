@@ -61,6 +61,7 @@ def renamed(other: Model, model: Model, mapped: Mapped, given: Collection[str] =
         prepare=lambda p: other.prepared(original(p)), lobe=lobe, kinks=other.kinks,
         Params=parameter_type(names.values(), defaults, other.picks), isotropic=other.isotropic,
         domain={names[n]: ends for n, ends in other.domain.items() if n in names},
+        whole=frozenset(names[n] for n in other.whole if n in names),
         picks=other.picks, namespace=other.namespace,
     )  # fmt: skip
 

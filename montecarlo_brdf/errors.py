@@ -3,7 +3,6 @@ verdict."""
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 
 
@@ -45,6 +44,8 @@ class OutputError(UserError):
 def unknown(kind: str, name: object, allowed: Iterable[str]) -> str:
     """Sentence for a name that is not among `allowed`, with the nearest one if there is any."""
     names = [str(name) for name in allowed]  # enums by their values
+    import difflib  # slow to import, and seldom needed
+
     near = difflib.get_close_matches(str(name), names, n=1)
     guess = f"; did you mean {near[0]!r}?" if near else ""
     return f"no {kind} {str(name)!r}{guess} (choose from {', '.join(names) or 'none'})"

@@ -150,6 +150,7 @@ def _assembled(terms: tuple[Term, ...], name: str) -> Model:
         prepare=lambda p: _prepared(terms, p),
         domain={field: ends for field, _, _, ends in parameters if ends},
         choices=choices,
+        whole=frozenset(f"{t.prefix}_{name}" for t in terms for name in t.model.whole),
         disclaims={k: f"{t.prefix}: {v}" for t in terms for k, v in t.model.disclaims.items()},
         isotropic=all(t.model.isotropic for t in terms),
         picks=picks,

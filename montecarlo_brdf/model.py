@@ -45,6 +45,8 @@ class Property(StrEnum):
 
 
 PROPERTIES = tuple(Property)
+#: what a parameter that is whole may be called
+SWITCHES = {"false": 0.0, "true": 1.0}
 #: where f may not be smooth
 KINKS = ("mu_i=mu_o", "cos_phi=0")
 
@@ -105,6 +107,7 @@ class Model:
     choices: Mapping[str, Mapping[str, Option]] = field(default_factory=dict)
     disclaims: Mapping[str, str] = field(default_factory=dict)
     verified: tuple[ParameterSet, ...] = ()
+    whole: frozenset[str] = frozenset()  # parameters that are counts or switches
     lossless: bool | tuple[ParameterSet, ...] = False  # True: whatever the parameters
     albedo: Callable[[float, Any], float] | None = None  # of cos(theta_o) and a parameter set
     same_as: str | None = None
@@ -187,12 +190,16 @@ class Model:
         if isinstance(value, (tuple, list)):
             return tuple(self._checked(name, v) for v in value)
         low, high = self.domain.get(name, (-math.inf, math.inf))
-        allowed = f"a number in [{low:g}, {high:g}]" if name in self.domain else "a finite number"
+        whole = name in self.whole
         try:
-            number = float(value)
+            number = float(SWITCHES.get(str(value).lower(), value) if whole else value)
         except (TypeError, ValueError):
             number = math.nan
-        if isinstance(value, bool) or not (math.isfinite(number) and low <= number <= high):
+        fits = math.isfinite(number) and low <= number <= high
+        if not fits or (number % 1.0 != 0.0 if whole else isinstance(value, bool)):
+            allowed = "a whole number" if whole else "a number"
+            allowed += f" in [{low:g}, {high:g}]" if name in self.domain else ""
+            allowed = "a finite number" if allowed == "a number" else allowed
             name = self.labels.get(name, name)
             sentence = f"{name} of model {self.name} must be {allowed}, not {value!r}"
             raise UserError(sentence, about=name)

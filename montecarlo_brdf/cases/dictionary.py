@@ -105,8 +105,10 @@ def of_parameters(case: Case, numbers: Sequence[float]) -> Iterator[Special]:
         made |= {v for c in numbers for s in (c, -c) for v in _near(s)}
         whole = range(math.ceil(low), math.floor(min(high, low + WHOLE)) + 1)
         made |= {low, high, float(getattr(case.one, name)), *map(float, whole)}
-        yield from (Special(Place.PARAMETER, v, k) for v in sorted(made) if low <= v <= high)
-        for j in range(len(names)):
+        counted = name in case.model.whole
+        made = {v for v in made if low <= v <= high and (v % 1.0 == 0.0 or not counted)}
+        yield from (Special(Place.PARAMETER, v, k) for v in sorted(made))
+        for j in range(0 if counted else len(names)):
             if j != k:
                 yield from (Special(Place.RATIO, apart, k, j) for apart in APART)
                 yield from (Special(Place.SUM, 1.0, k, j), Special(Place.PRODUCT, -1.0, k, j))

@@ -106,7 +106,8 @@ class Crossings:
         self.rung = Rung(replace(case.model, prepare=None), recording(self.tape))
         self.rng = case.random("margins", member)
         fields, second = case.one._fields, Side.U if member == "sample" else Side.WI
-        free = () if case.model.prepare else case.free  # each new value would be prepared
+        free = [n for n in case.free if n not in case.model.whole]
+        free = [] if case.model.prepare else free  # each new value would be prepared
         self.axes = [Axis(Side.TABLE, fields.index(name)) for name in free]
         self.axes += [Axis(Side.WO, k) for k in range(4)]
         self.axes += [Axis(second, k) for k in range(3 if second is Side.U else 4)]

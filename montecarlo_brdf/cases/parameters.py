@@ -43,10 +43,20 @@ def share(low: float, high: float, value: float) -> float:
     return (value - low) / (high - low)
 
 
+def placed(case: Case, name: str, ends: tuple[float, float], t: T) -> T:
+    """The value of a parameter at t in [0, 1] of its range; of counts and switches each has an
+    equal share."""
+    if name not in case.model.whole:
+        return between(*ends, t)
+    low, high = math.ceil(ends[0]), math.floor(ends[1])
+    found = (low + (high - low + 1) * t) // 1.0
+    return min(found, float(high)) if isinstance(found, float) else found.clip(low, high)
+
+
 def at(case: Case, t: dict[str, float]) -> Parameters:
     """The case's parameter set with the free parameters at positions t in [0, 1]."""
     ranges = {n: search_range(case.model, n) for n in case.free}
-    changed = {n: float(between(*ends, t[n])) for n, ends in ranges.items() if ends}
+    changed = {n: float(placed(case, n, ends, float(t[n]))) for n, ends in ranges.items() if ends}
     return case.one._replace(**changed)
 
 
@@ -57,7 +67,7 @@ def table(case: Case, t: Array) -> Array:
     found = np.tile(np.array(tuple(case.one), dtype=float), (len(t), 1))
     for k, name in enumerate(case.free):
         ends = search_range(case.model, name) or (0.0, 0.0)
-        found[:, case.one._fields.index(name)] = between(*ends, t[:, k])
+        found[:, case.one._fields.index(name)] = placed(case, name, ends, t[:, k])
     return found
 
 
@@ -69,7 +79,14 @@ def rows(case: Case, t: Array) -> Rows:
 def position(case: Case, p: Parameters) -> dict[str, float]:
     """Where a parameter set lies in the ranges: the inverse of `at`."""
     ranges = {n: search_range(case.model, n) or (0.0, 1.0) for n in case.free}
-    return {n: share(*ends, getattr(p, n)) for n, ends in ranges.items()}
+    return {n: _share(case, n, ends, getattr(p, n)) for n, ends in ranges.items()}
+
+
+def _share(case: Case, name: str, ends: tuple[float, float], value: float) -> float:
+    if name not in case.model.whole:
+        return share(*ends, value)
+    low, high = math.ceil(ends[0]), math.floor(ends[1])
+    return (value - low + 0.5) / (high - low + 1)
 
 
 def sets(case: Case, count: int = INTERIORS) -> Iterator[Parameters]:

@@ -35,12 +35,23 @@ _kept: list[TextIO] = []
 @contextlib.contextmanager
 def answers_alone() -> Iterator[None]:
     """stdout is for what a command says: what a model's file prints meanwhile goes to stderr."""
+    from montecarlo_brdf.foreign import translation
+
+    heard = set[str]()
+
+    def hear(sentence: str) -> None:
+        if sentence not in heard and not _quiet():
+            click.echo(sentence, err=True)
+        heard.add(sentence)
+
     _kept.append(sys.stdout)
+    translation.listeners.append(hear)
     try:
         with contextlib.redirect_stdout(sys.stderr):
             yield
     finally:
         _kept.pop()
+        translation.listeners.remove(hear)
 
 
 def stdout() -> TextIO:

@@ -33,6 +33,31 @@ def wrapped(pattern: str) -> Rule:
     return rule
 
 
+def extended(low: str, high: str) -> Rule:
+    """Two words of a result, as a struct of both."""
+
+    def rule(code: Code, a: Operands) -> list[str]:
+        kind = code.module.types.scalar(code.module.types[a[0]].parts[0])
+        rows = list(zip(*map(code.value, a[2:4]), strict=True))
+        lows = [in_range(low.format(*row), kind) for row in rows]
+        return lows + [high.format(*row) for row in rows]
+
+    return rule
+
+
+def of_bits(pattern: str) -> Rule:
+    """The same as `wrapped`, of vectors by places that are numbers."""
+
+    def rule(code: Code, a: Operands) -> list[str]:
+        operands = [code.value(x) for x in a[2:]]
+        size = len(operands[0])
+        rows = zip(*(x if len(x) == size else x * size for x in operands), strict=True)
+        kind = code.module.types.scalar(a[0])
+        return [in_range(pattern.format(*row), kind) for row in rows]
+
+    return rule
+
+
 def in_range(text: str, kind: Kind) -> str:
     """A whole number modulo 2^32, signed or not."""
     if kind is Kind.UNSIGNED:
@@ -195,6 +220,14 @@ RULES: dict[int, Rule] = {
     Op.MATRIX_TIMES_VECTOR: _matrix_times_vector, Op.VECTOR_TIMES_MATRIX: _vector_times_matrix,
     Op.MATRIX_TIMES_MATRIX: _matrix_times_matrix, Op.TRANSPOSE: _transpose,
     Op.OUTER_PRODUCT: _outer,
+    Op.I_ADD_CARRY: extended("{} + {}", "({} + {}) >> 32"),
+    Op.I_SUB_BORROW: extended("{} - {}", "({} - {}) >> 32 & 1"),
+    Op.U_MUL_EXTENDED: extended("{} * {}", "high_word({}, {})"),
+    Op.S_MUL_EXTENDED: extended("{} * {}", "high_word({}, {})"),
+    Op.BIT_FIELD_INSERT: of_bits("with_field({}, {}, {}, {})"),
+    Op.BIT_FIELD_U_EXTRACT: of_bits("field({}, {}, {})"),
+    Op.BIT_FIELD_S_EXTRACT: of_bits("signed_field({}, {}, {})"),
+    Op.BIT_REVERSE: of_bits("reversed_bits({})"), Op.BIT_COUNT: of_bits("bit_count({})"),
 }  # fmt: skip
 for _name, _sign in ORDERED.items():
     RULES |= {Op[f"{kind}_{_name}"]: each(f"{{}} {_sign} {{}}") for kind in ("S", "U", "F_ORD")}

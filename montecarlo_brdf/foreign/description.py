@@ -8,21 +8,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import unknown
 from montecarlo_brdf.foreign.complaint import Complaint
-from montecarlo_brdf.model import PROPERTIES
 
-LINE = re.compile(r"^[ \t]*//[ \t]*brdf-check:[ \t]*(.*?)[ \t]*$", re.M)
+LINE = re.compile(
+    r"^[ \t]*(?://[/!]*|/\*+|\*)[ \t]*brdf-check:[ \t]*(.*?)(?:[ \t]+//.*|[ \t]*\*/)?[ \t]*$", re.M
+)
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 VALUE = re.compile(
-    rf"(?P<value>true|false|{NUMBER}|color\s*\([^)]*\))"
+    rf"(?P<value>true|false|{NUMBER}|int\s*\(\s*-?\d+\s*\)|(?:colou?r|vec3|float3)\s*\([^)]*\))"
     rf"(?:\s+in\s+\[\s*(?P<low>{NUMBER})\s*,\s*(?P<high>{NUMBER})\s*\])?"
 )
+SUFFIX = re.compile(r"(?<=[\d.])[fF]\b")  # of a number
 IDENTIFIER = re.compile(r"[A-Za-z]\w*")
+MACRO = re.compile(r"[A-Za-z_]\w*(?:\([\w, ]*\))?")
 CHANNELS = ("r", "g", "b")
 
 
@@ -49,6 +51,15 @@ class Measure(StrEnum):
     PROJECTED = "projected"
 
 
+class Language(StrEnum):
+    """What a shader is written in."""
+
+    GLSL = "glsl"
+    HLSL = "hlsl"
+    SLANG = "slang"
+    EXPLORER = "brdf"
+
+
 class Parameter(NamedTuple):
     """A parameter of the shader: default per channel, range."""
 
@@ -64,27 +75,28 @@ class Parameter(NamedTuple):
         return {f"{self.name}_{c}": v for c, v in zip(CHANNELS, self.defaults, strict=True)}
 
 
-@dataclass
 class Description:
-    """All that is said of a shader."""
+    """All that is said of a shader. (No dataclass: to import those takes a tenth of a
+    translation.)"""
 
-    f: str = ""
-    pdf: str = ""
-    sample: str = ""
-    weight: str = ""
-    before: str = ""
-    cosine: Cosine = Cosine.EXCLUDED
-    measure: Measure = Measure.SOLID_ANGLE
-    precision: str = "single"
-    parameters: list[Parameter] = field(default_factory=list)
-    defines: dict[str, str] = field(default_factory=dict)
-    folders: list[str] = field(default_factory=list)
-    sources: list[str] = field(default_factory=list)
-    stub: str = ""
-    lobe: str = ""  # "half vector: alpha"
-    albedo: str = ""  # a formula of mu and parameters
-    members: dict[str, Any] = field(default_factory=dict)  # of the model
-    places: dict[str, str] = field(default_factory=dict)  # key -> file and line
+    def __init__(self) -> None:
+        self.f = self.pdf = self.sample = self.weight = ""  # expressions
+        self.before = self.stub = ""  # statements
+        self.cosine, self.measure = Cosine.EXCLUDED, Measure.SOLID_ANGLE
+        self.precision = "single"
+        self.language: Language | None = None  # by the file's name
+        self.parameters: list[Parameter] = []
+        self.defines: dict[str, str] = {}
+        self.folders: list[str] = []
+        self.sources: list[str] = []
+        self.lobe = ""  # "half vector: alpha"
+        self.albedo = ""  # a formula of mu and parameters
+        self.verified = ""  # "alpha = 0.3; alpha = 1"
+        self.lossless = ""  # true, or the same
+        self.limits = ""  # "alpha = 1: lambert"
+        self.members: dict[str, Any] = {}  # of the model
+        self.places: dict[str, str] = {}  # key -> file and line
+        self.found: list[str] = []  # in words, what nobody said
 
 
 class Statement(NamedTuple):
@@ -110,23 +122,24 @@ def described(said: Iterable[Statement]) -> Description:
             _take(found, *one)
         except Complaint as error:
             raise Complaint(f"{one.place}: {error}", placed=True) from None
+    if found.before and not found.before.rstrip().endswith((";", "}")):
+        found.before += ";\n"
     return found
 
 
 def _take(found: Description, statement: str, place: str) -> None:
-    key, equals, value = (part.strip() for part in statement.partition("="))
-    words = key.split()
-    if not equals or not words or not value:
+    key, _, value = (part.strip() for part in statement.partition("="))
+    name, _, named = (part.strip() for part in key.partition(" "))
+    if not value and name != "define":
         raise Complaint(f"write `// brdf-check: key = value`, not {statement!r}")
-    name = words[0]
     if name not in KEYS:
         raise Complaint(unknown("key", name, sorted(KEYS)))
-    taken, named = KEYS[name]
-    if named != (len(words) == 2) or len(words) > 2:
-        form = f"{name} NAME = value" if named else f"{name} = value"
+    taken, needs_name = KEYS[name]
+    if needs_name != bool(named):
+        form = f"{name} NAME = value" if needs_name else f"{name} = value"
         raise Complaint(f"write `{form}`, not {statement!r}")
     found.places.setdefault(key, place)
-    taken(found, words[-1], value)
+    taken(found, named or name, value)
 
 
 Taker = Callable[[Description, str, str], None]
@@ -135,7 +148,7 @@ Taker = Callable[[Description, str, str], None]
 def _expression(found: Description, key: str, value: str) -> None:
     if getattr(found, key):
         raise Complaint(f"key {key} is given twice")
-    setattr(found, key, value)
+    setattr(found, key, value.rstrip("; "))
 
 
 def _before(found: Description, key: str, value: str) -> None:
@@ -147,7 +160,7 @@ def _stub(found: Description, key: str, value: str) -> None:
 
 
 def _parameter(found: Description, name: str, value: str) -> None:
-    match = VALUE.fullmatch(value)
+    match = VALUE.fullmatch(SUFFIX.sub("", value))
     if not match or not IDENTIFIER.fullmatch(name):
         raise Complaint(f"write `param {name} = 0.3 in [0, 1]`, `= color(1, 0.7, 0.3)` or `= true`")
     if any(p.name == name for p in found.parameters):
@@ -160,15 +173,20 @@ def parameter(name: str, text: str, ends: tuple[float, float] | None) -> Paramet
     """A parameter by its default as it is written."""
     if text in ("true", "false"):
         return Parameter(name, (float(text == "true"),), (0.0, 1.0), Type.SWITCH)
-    if not text.startswith("color"):
+    if text.startswith("int"):
+        return Parameter(name, (float(re.findall(NUMBER, text)[0]),), ends, Type.WHOLE)
+    if "(" not in text:
         return Parameter(name, (float(text),), ends)
-    numbers = re.findall(NUMBER, text)
+    numbers = re.findall(NUMBER, text.partition("(")[2])
+    numbers = numbers * len(CHANNELS) if len(numbers) == 1 else numbers
     if len(numbers) != len(CHANNELS):
         raise Complaint(f"the colour {name} needs three numbers, not {text}")
     return Parameter(name, tuple(map(float, numbers)), ends, Type.COLOUR)
 
 
 def _define(found: Description, name: str, value: str) -> None:
+    if not MACRO.fullmatch(name):
+        raise Complaint(f"write `define NAME = value`, not `define {name}`")
     found.defines[name] = value.strip('"')
 
 
@@ -196,6 +214,8 @@ def _precision(found: Description, key: str, value: str) -> None:
 
 
 def _disclaims(found: Description, name: str, value: str) -> None:
+    from montecarlo_brdf.model import PROPERTIES  # slow to import
+
     if name not in PROPERTIES:
         raise Complaint(unknown("property", name, PROPERTIES))
     found.members.setdefault("disclaims", {})[name] = value
@@ -218,6 +238,12 @@ def _word(found: Description, key: str, value: str) -> None:
     found.members[key] = value
 
 
+def _sets(found: Description, key: str, value: str) -> None:
+    """Parameter sets, which more lines may add to."""
+    before = getattr(found, key)
+    setattr(found, key, f"{before}; {value}" if before else value)
+
+
 def _kinks(found: Description, key: str, value: str) -> None:
     found.members[key] = [one.strip() for one in value.split(",")]
 
@@ -233,7 +259,8 @@ KEYS: dict[str, tuple[Taker, bool]] = {
     "cosine": (_one_of(Cosine), False), "measure": (_one_of(Measure), False),
     "precision": (_precision, False), "define": (_define, True), "include": (_include, False),
     "source": (_source, False), "stub": (_stub, False), "disclaims": (_disclaims, True),
-    "isotropic": (_switch, False), "lossless": (_switch, False), "term": (_term, False),
+    "isotropic": (_switch, False), "lossless": (_sets, False), "term": (_term, False),
     "lobe": (_expression, False), "albedo": (_expression, False), "kinks": (_kinks, False),
+    "verified": (_sets, False), "limits": (_sets, False), "language": (_one_of(Language), False),
     "same_as": (_word, False), "scales_with": (_word, False),
 }  # fmt: skip

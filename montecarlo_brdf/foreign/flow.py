@@ -7,7 +7,6 @@ once sets `jump` and breaks; after the inner one the outer asks for it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 
 from montecarlo_brdf.foreign.code import Code
 from montecarlo_brdf.foreign.module import Instruction, Operands
@@ -20,14 +19,12 @@ Stops = frozenset[int]
 NOWHERE: Stops = frozenset()
 
 
-@dataclass
 class Loop:
     """A loop or a switch that is open: the labels where it ends, goes on, and begins."""
 
-    merge: int
-    goes_on: int | None
-    head: int | None
-    pending: dict[int, int] = field(default_factory=dict)  # label outside -> number of the jump
+    def __init__(self, merge: int, goes_on: int | None, head: int | None) -> None:
+        self.merge, self.goes_on, self.head = merge, goes_on, head
+        self.pending: dict[int, int] = {}  # label outside -> number of the jump
 
     def labels(self) -> tuple[int | None, ...]:
         """Where a jump of it may lead."""

@@ -24,6 +24,11 @@ BUILT_IN = frozenset(NAMES.split())
 TYPE = r"(?:float|double|int|uint|bool|[biud]?vec[234]|mat[234](?:x[234])?)"
 DEFINITION = re.compile(rf"^[ \t]*(?:void|{TYPE})\s+(\w+)\s*\(", re.M)
 HEAD = re.compile(r"^[ \t]*#[ \t]*version[^\n]*$|^[ \t]*precision\s+\w+\s+\w+\s*;", re.M)
+#: Godot's own directives
+ENGINE = re.compile(r"^[ \t]*#[ \t]*(?:\[\w+\]|[A-Z_]+)[ \t]*$", re.M)
+#: calls by names that the compiler keeps for other things
+SAMPLING = re.compile(r"\b(?:texture(?:1D|2DRect|2D|3D|Cube)|shadow[12]D)"
+                      r"(Proj)?(Lod|Grad)?(?:EXT|ARB)?(?=\s*\()")  # fmt: skip
 EXTENSION = re.compile(r"^[ \t]*#[ \t]*extension[^\n]*$", re.M)
 LAYOUT = r"(?:layout\s*\([^)]*\)\s*)?"
 QUALIFIERS = r"(?:(?:highp|mediump|lowp|flat|smooth|noperspective|centroid|readonly)\s+)*"
@@ -37,7 +42,10 @@ STAGE = re.compile(
 )
 LOCAL_SIZE = re.compile(r"layout\s*\([^)]*local_size[^)]*\)\s*in\s*;")
 BLOCK = re.compile(rf"{LAYOUT}\buniform\s+\w+\s*\{{(?P<members>[^}}]*)\}}\s*;")
-NAMED = re.compile(rf"(?P<layout>{LAYOUT})\b(?P<block>uniform\s+\w+\s*\{{[^}}]*\}}\s*\w+)")
+NAMED = re.compile(
+    rf"{LAYOUT}{QUALIFIERS}\b(?P<way>uniform|in|out)\s+(?P<type>\w+)\s*"
+    r"(?P<members>\{[^}]*\})\s*(?P<name>\w+)(?P<array>\s*\[[^\]]*\])?\s*;"
+)
 OPAQUE = re.compile(r"[iu]?(?:sampler|image|texture)\w*|subpassInput\w*|atomic_uint")
 MAKERS = """\
 vec3 bc_colour(float x) { return vec3(x); }
@@ -57,10 +65,11 @@ class Program:
         self._parameters = {p.name: p for p in said.parameters}
         code = bare(text)
         extensions = EXTENSION.findall(code)
-        for pattern in (HEAD, EXTENSION, LOCAL_SIZE):
+        for pattern in (HEAD, EXTENSION, LOCAL_SIZE, ENGINE):
             code = pattern.sub("", code)
+        code = SAMPLING.sub(r"texture\1\2", code)
         code = rewritten(code, BLOCK, _opened)
-        code = rewritten(code, NAMED, self._bound)
+        code = rewritten(code, NAMED, self._block)
         code = rewritten(code, UNIFORM, self._uniform)
         code = rewritten(code, STAGE, self._stage)
         self._globals = {p for p in self._parameters if _is_global(code, p)}
@@ -81,9 +90,9 @@ class Program:
         said, first = self._said, entries.end(self._said.parameters)
         before = f'#line 1 "{KEY}before"\n{said.before}' if said.before else ""
         lines = [
-            "void main() {", *self._directions(one), *self._assignments(), before,
+            "void main() {", *self._directions(one), *self._assignments(), "{", before,
             f'#line 1 "{KEY}{one.name}"', f"vec3 bc_result = {one.maker}({one.expression});",
-            *(f"bc[{first + k}] = bc_result.{'xyz'[k]};" for k in range(3)), "}",
+            *(f"bc[{first + k}] = bc_result.{'xyz'[k]};" for k in range(3)), "}}",
         ]  # fmt: skip
         return self._text + "\n".join(lines) + "\n"
 
@@ -112,10 +121,16 @@ class Program:
         inside = f"{kind} {name}{array};"
         return f"layout(binding = {self._bindings}) uniform bc_{name} {{ {inside} }};"
 
-    def _bound(self, match: re.Match[str]) -> str:
-        """A block with a name of its own, where the compiler wants to know its place."""
+    def _block(self, match: re.Match[str]) -> str:
+        """A block with a name of its own, where the compiler wants to know its place; one that is
+        set, or that the stage gives, is a variable of ours."""
+        kind, way = match["type"], match["way"]
+        rest = f"{match['members']} {match['name']}{match['array'] or ''};"
+        if way == "out" or is_set(match["name"], self._said.before):
+            return f"struct bc_{kind} {rest}"
         self._bindings += 1
-        return f"layout(binding = {self._bindings}) {match['block']}"
+        place = "binding" if way == "uniform" else "location"
+        return f"layout({place} = {self._bindings}) {way} {kind} {rest}"
 
     def _stage(self, match: re.Match[str]) -> str:
         """What the stage gets stays so, unless it is a parameter or set; what it gives is ours."""

@@ -18,6 +18,15 @@ UNIFORM = re.compile(
 OTHER = re.compile(r"\b(?:ConstantBuffer\s*<\s*(?P<inner>\w+)\s*>|(?P<type>\w+))\s+(?P<name>\w+)"
                    r"(?P<array>\s*\[[^\]]*\])?\s*(?::\s*register\s*\([^)]*\)\s*)?;")  # fmt: skip
 BLOCK = re.compile(r"\bcbuffer\s+\w+\s*(?::[^{]*)?\{(?P<members>[^}]*)\}\s*;?")
+#: hints before statements, which Slang does not take before all of them
+HINT = re.compile(r"(?:^|(?<=[;{})]))(\s*)\[\s*(?:flatten|branch|forcecase|call)\s*\]", re.M)
+#: types of HLSL that Slang does not know
+SMALL = " ".join(
+    f"typedef {wide}{n} {name}{n};"
+    for name, wide in (("min16float", "float"), ("min10float", "float"), ("min16int", "int"),
+                       ("min16uint", "uint"))
+    for n in ("", 2, 3, 4)
+)  # fmt: skip
 MAKERS = """\
 float3 bc_colour(float x) { return float3(x, x, x); }
 float3 bc_colour(float3 x) { return x; }
@@ -34,13 +43,14 @@ class Program:
         self._said = said
         self._parameters = {p.name: p for p in said.parameters}
         self._globals: set[str] = set()
-        code = rewritten(bare(text), BLOCK, self._opened)
+        code = rewritten(HINT.sub(r"\1", bare(text)), BLOCK, self._opened)
         code = rewritten(code, UNIFORM, self._uniform)
         code = rewritten(code, OTHER, self._set)
         stub = f'#line 1 "{KEY}stub"\n{said.stub}' if said.stub else ""
         defines = [f"#define {k} {v}" for k, v in said.defines.items()]
         self._text = "\n".join([
-            "RWStructuredBuffer<float> bc;", *defines, stub, f'#line 1 "{path}"', code, MAKERS,
+            "RWStructuredBuffer<float> bc;", SMALL, *defines, stub,
+            f'#line 1 "{path}"', code, MAKERS,
         ])  # fmt: skip
 
     def source(self, one: Entry) -> str:
@@ -49,9 +59,9 @@ class Program:
         before = f'#line 1 "{KEY}before"\n{said.before}' if said.before else ""
         lines = [
             '[shader("compute")][numthreads(1, 1, 1)] void bc_main() {', *self._directions(one),
-            *self._assignments(), before, f'#line 1 "{KEY}{one.name}"',
+            *self._assignments(), "{", before, f'#line 1 "{KEY}{one.name}"',
             f"float3 bc_result = {one.maker}({one.expression});",
-            *(f"bc[{first + k}] = bc_result.{'xyz'[k]};" for k in range(3)), "}",
+            *(f"bc[{first + k}] = bc_result.{'xyz'[k]};" for k in range(3)), "}}",
         ]  # fmt: skip
         return self._text + "\n".join(lines) + "\n"
 

@@ -25,12 +25,10 @@ DEEPEST, LARGEST = 64, 1 << 26
 class Includes:
     """Reads files, and remembers which."""
 
-    def __init__(
-        self, folders: list[Path], shown: Callable[[Path], str], macros: Mapping[str, str]
-    ) -> None:
+    def __init__(self, folders: list[Path], shown: Callable[[Path], str]) -> None:
         self.folders, self._shown = folders, shown
         self.read: dict[Path, bytes] = {}
-        self._conditions = Conditions(macros)
+        self._conditions = Conditions({})
         self._once: set[Path] = set()
         self._size = 0
 
@@ -51,7 +49,7 @@ class Includes:
         return quoted(text) if path.suffix in QUOTING else text
 
     def defined(self, macros: Mapping[str, str]) -> None:
-        """Macros that an engine would define before the shader."""
+        """Macros that a compiler or an engine would define before the shader."""
         self._conditions.macros |= macros
 
     def resolved(self, text: str, path: Path, depth: int = 0) -> str:
@@ -93,8 +91,9 @@ class Includes:
     def find(self, name: str, path: Path) -> Path | None:
         """A file beside the one that names it, or in one of the folders."""
         for folder in (path.parent, *self.folders):
-            if (folder / name).is_file():
-                return folder / name
+            for found in (folder / name, folder / name.lstrip("/")):  # an engine's root
+                if found.is_file():
+                    return found
         return None
 
 

@@ -1,4 +1,4 @@
-"""Which compiler a shader is for, and SPIR-V by it."""
+"""Which language a shader is in, and SPIR-V by its compiler."""
 
 from __future__ import annotations
 
@@ -6,10 +6,18 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from montecarlo_brdf.foreign import entry, glsl, glslang, hlsl, messages, slang
-from montecarlo_brdf.foreign.description import Description
+from montecarlo_brdf.foreign.description import Description, Language
 from montecarlo_brdf.foreign.entry import Entry
 
-SLANG = (".hlsl", ".hlsli", ".fx", ".cginc", ".slang")
+SUFFIXES = {
+    ".hlsl": Language.HLSL, ".hlsli": Language.HLSL, ".fx": Language.HLSL,
+    ".cginc": Language.HLSL, ".slang": Language.SLANG, ".brdf": Language.EXPLORER,
+}  # fmt: skip
+
+
+def language_of(path: Path, said: Description) -> Language:
+    """What its author says, else by its name."""
+    return said.language or SUFFIXES.get(path.suffix, Language.GLSL)
 
 
 def binaries(
@@ -20,20 +28,22 @@ def binaries(
     Raises Complaint where one does not compile.
     """
     said.parameters = [glsl.declared(text, p) for p in said.parameters]
-    if path.suffix in SLANG:
+    language = language_of(path, said)
+    if language in (Language.HLSL, Language.SLANG):
         program = hlsl.Program(text, shown(path), said)
         for one in entry.entries(said):
-            yield one.name, _by_slang(program.source(one), path, one, folders, files)
+            yield one.name, _by_slang(program.source(one), language, one, folders, files)
         return
     glsl_program = glsl.Program(text, shown(path), said)
     for one in entry.entries(said):
         yield one.name, _by_glslang(glsl_program.source(one), path)
 
 
-def macros(path: Path) -> dict[str, str]:
+def macros(language: Language) -> dict[str, str]:
     """What a compiler defines by itself."""
-    known = {"__SLANG_COMPILER__": "1", "__HLSL_VERSION": "2018"}
-    return known if path.suffix in SLANG else {"__VERSION__": str(glsl.VERSION), "VULKAN": "100"}
+    if language in (Language.HLSL, Language.SLANG):
+        return {"__SLANG_COMPILER__": "1", "__HLSL_VERSION": "2018"}
+    return {"__VERSION__": str(glsl.VERSION), "VULKAN": "100"}
 
 
 def shown(path: Path) -> str:
@@ -52,14 +62,14 @@ def _by_glslang(text: str, path: Path) -> bytes:
 
 
 def _by_slang(
-    text: str, path: Path, one: Entry, folders: list[Path], files: dict[Path, bytes]
+    text: str, language: Language, one: Entry, folders: list[Path], files: dict[Path, bytes]
 ) -> bytes:
     """The compiler reads files: the program is one for as long as it runs."""
     options = [x for folder in folders for x in ("-I", str(folder))]
     import tempfile
 
     with tempfile.TemporaryDirectory() as place:
-        file = Path(place) / f"{one.name}{'.slang' if path.suffix == '.slang' else '.hlsl'}"
+        file = Path(place) / f"{one.name}.{language}"
         file.write_text(text, encoding="utf-8")
         found = slang.spirv(file, options)
         others = [p for p in found.files if p.is_file() and Path(place) not in p.parents]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from montecarlo_brdf.foreign.arithmetic import dot
 from montecarlo_brdf.foreign.code import Code
@@ -89,15 +89,60 @@ def cofactor(m: list[str], p: int, q: int, r: int, s: int) -> str:
     return f"({m[p]} * {m[q]} - {m[r]} * {m[s]})"
 
 
+def parts(code: Code, args: list[list[str]]) -> list[str]:
+    """What is behind the point, and what is before it."""
+    whole = [f"truncated({x})" for x in args[0]]
+    return [f"{x} - {w}" for x, w in zip(args[0], whole, strict=True)] + whole
+
+
+def mantissa(code: Code, args: list[list[str]]) -> list[str]:
+    """m and e of m 2^e."""
+    powers = [code.once(f"binary_exponent({x})") for x in args[0]]
+    return [f"scaled({x}, -{e})" for x, e in zip(args[0], powers, strict=True)] + powers
+
+
+PAIRS = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
+
+
+def minors(code: Code, m: list[str], first: int) -> dict[tuple[int, int], str]:
+    """Those of two columns of a mat4, by rows."""
+    return {
+        (i, j): code.once(cofactor(m, first + i, first + 4 + j, first + j, first + 4 + i))
+        for i, j in PAIRS
+    }
+
+
+def laplace(left: dict[tuple[int, int], str], right: dict[tuple[int, int], str]) -> str:
+    """The determinant of a mat4 by the minors of its halves."""
+    signs = zip(PAIRS, ("", "- ", "+ ", "+ ", "- ", "+ "), reversed(PAIRS), strict=True)
+    return " ".join(f"{sign}{left[one]} * {right[other]}" for one, sign, other in signs)
+
+
+def inverse_of_four(code: Code, m: list[str]) -> list[str]:
+    """Of a mat4: its adjugate by the minors of its halves, over its determinant."""
+    left, right = minors(code, m, 0), minors(code, m, 8)
+    over = code.once(f"{code.module.numerals.real(1.0)} / ({laplace(left, right)})")
+    found = [""] * 16
+    for column in range(4):  # of m: the row of the inverse
+        beside, across = (column ^ 1), (right if column < 2 else left)
+        for row in range(4):
+            a, b, c = (r for r in range(4) if r != row)
+            x, y, z = (m[4 * beside + r] for r in (a, b, c))
+            inside = f"{x} * {across[b, c]} - {y} * {across[a, c]} + {z} * {across[a, b]}"
+            sign = "-" if (row + column) % 2 else ""
+            found[4 * row + column] = f"{sign}({inside}) * {over}"
+    return found
+
+
 def determinant(code: Code, args: list[list[str]]) -> list[str]:
-    """Of 2 or 3 columns."""
+    """Of 2, 3 or 4 columns."""
     m = args[0]
     if len(m) == 4:
         return [f"{m[0]} * {m[3]} - {m[2]} * {m[1]}"]
-    if len(m) != 9:
-        raise Complaint("the determinant of a mat4 is used, which is not known")
-    minors = cofactor(m, 4, 8, 7, 5), cofactor(m, 7, 2, 1, 8), cofactor(m, 1, 5, 4, 2)
-    return [f"{m[0]} * {minors[0]} + {m[3]} * {minors[1]} + {m[6]} * {minors[2]}"]
+    if len(m) == 16:
+        return [laplace(minors(code, m, 0), minors(code, m, 8))]
+    first, second, third = (cofactor(m, *minor) for minor in MINORS[:3])
+    return [f"{m[0]} * {first} + {m[3]} * {second} + {m[6]} * {third}"]
 
 
 MINORS = ((4, 8, 7, 5), (7, 2, 1, 8), (1, 5, 4, 2), (6, 5, 3, 8), (0, 8, 6, 2), (3, 2, 0, 5),
@@ -105,8 +150,10 @@ MINORS = ((4, 8, 7, 5), (7, 2, 1, 8), (1, 5, 4, 2), (6, 5, 3, 8), (0, 8, 6, 2), 
 
 
 def inverse(code: Code, args: list[list[str]]) -> list[str]:
-    """Of 2 or 3 columns."""
+    """Of 2, 3 or 4 columns."""
     m = args[0]
+    if len(m) == 16:
+        return inverse_of_four(code, m)
     over = code.once(f"{code.module.numerals.real(1.0)} / ({determinant(code, args)[0]})")
     if len(m) == 4:
         return [f"{m[3]} * {over}", f"-{m[1]} * {over}", f"-{m[2]} * {over}", f"{m[0]} * {over}"]
@@ -125,17 +172,41 @@ FUNCTIONS: dict[int, Rule] = {
     20: each("cosh({})"), 21: each("tanh({})"), 22: each("asinh({})"), 23: each("acosh({})"),
     24: each("atanh({})"), 25: each("atan2({}, {})"), POWER: power, 27: each("exp({})"),
     28: each("log({})"), 29: each("exp2({})"), 30: each("log2({})"), 31: each("sqrt({})"),
-    32: each("inverse_root({})"), 33: determinant, 34: inverse, 37: MIN, 38: MIN, 39: MIN,
+    32: each("inverse_root({})"), 33: determinant, 34: inverse, 36: parts,
+    37: MIN, 38: MIN, 39: MIN,
     40: MAX, 41: MAX, 42: MAX, 43: CLAMP, 44: CLAMP, 45: CLAMP, 46: each("mix({}, {}, {})"),
     48: each("step({}, {})"), 49: each("smoothstep({}, {}, {})"), 50: each("{} * {} + {}"),
+    52: mantissa, 53: each("scaled({}, {})"),
     66: length, 67: distance, 68: cross, 69: normalize, 70: faceforward, 71: reflect, 72: refract,
+    73: each("lowest_bit({})"), 74: each("highest_bit({})"), 75: each("highest_bit({})"),
     79: MIN, 80: MAX, 81: CLAMP,
 }  # fmt: skip
 
 
-def call(code: Code, a: Operands) -> None:
-    """Write the call of a function of the library."""
+#: what is not known, by its name
+OTHERS = {
+    54: "packSnorm4x8", 55: "packUnorm4x8", 56: "packSnorm2x16",
+    57: "packUnorm2x16", 58: "packHalf2x16", 59: "packDouble2x32", 60: "unpackSnorm2x16",
+    61: "unpackUnorm2x16", 62: "unpackHalf2x16", 63: "unpackSnorm4x8", 64: "unpackUnorm4x8",
+    65: "unpackDouble2x32", 76: "interpolateAtCentroid", 77: "interpolateAtSample",
+    78: "interpolateAtOffset",
+}  # fmt: skip
+
+
+#: functions that give a second result by a pointer, and those that give both in a struct
+POINTED = {35: 36, 51: 52}
+
+
+def call(code: Code, a: Operands) -> Iterator[tuple[int, list[str]]]:
+    """Write the call of a function of the library; what it stores, and where."""
+    if a[3] in POINTED:
+        found = FUNCTIONS[POINTED[a[3]]](code, [code.value(a[4])])
+        half = len(found) // 2
+        code.let(a[1], a[0], found[:half])
+        yield a[5], found[half:]
+        return
     rule = FUNCTIONS.get(a[3])
     if rule is None:
-        raise Complaint(f"function {a[3]} of GLSL's library is used, which is not known")
+        name = OTHERS.get(a[3], f"function {a[3]} of GLSL's library")
+        raise Complaint(f"{name} is used, which is not known")
     code.let(a[1], a[0], rule(code, [code.value(x) for x in a[4:]]))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import keyword
 import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from montecarlo_brdf.foreign import entry, formula, runtime
+from montecarlo_brdf.foreign import entry, formula, parameter_sets, runtime
 from montecarlo_brdf.foreign.complaint import Complaint
-from montecarlo_brdf.foreign.description import Cosine, Description, Measure
+from montecarlo_brdf.foreign.description import Cosine, Description, Measure, Parameter, Type
 from montecarlo_brdf.foreign.numerals import Numerals
 from montecarlo_brdf.foreign.python import Source
 
@@ -39,7 +40,7 @@ class Version:
     def text(self) -> str:
         """The whole file."""
         body = "\n\n".join([*self._tables(), *self._functions(), *self._members()])
-        known = [n for n in runtime.__all__ if re.search(rf"\b{n}\b", body)]
+        known = sorted({*runtime.__all__} & {*re.findall(r"\w+", body)})
         imports = f"from {RUNTIME}{'_single' if self.numerals.single else ''} import "
         head = [repr(self._doc()), "from typing import NamedTuple"]
         if "math." in body:
@@ -54,13 +55,16 @@ class Version:
 
     def _doc(self) -> str:
         lines = [f"{k} = {e}" for k, e in _expressions(self.said)]
+        lines += [f"found: {one}" for one in self.said.found]
         return "\n".join([f"{self.name}: a shader.", "", *lines])
 
     def _params(self) -> str:
-        fields = {field_name(k): v for p in self.said.parameters for k, v in p.fields().items()}
-        lines = [f"    {k}: float = {v!r}" for k, v in fields.items()]
+        lines = [
+            f"    {field_name(k)}: {_annotation(p)} = {int(v) if _is_counted(p) else v!r}"
+            for p in self.said.parameters for k, v in p.fields().items()
+        ]  # fmt: skip
         if self.coloured:
-            lines.append(f"    {CHANNEL}: tuple = (0.0, 1.0, 2.0)")
+            lines.append(f"    {CHANNEL}: int = (0.0, 1.0, 2.0)")
         return "\n".join(["class Params(NamedTuple):", *(lines or ["    pass"])])
 
     def _tables(self) -> Iterator[str]:
@@ -128,27 +132,55 @@ class Version:
         fields = [field_name(k) for p in self.said.parameters for k in p.fields()]
         if self.said.lobe:
             kind, _, width = self.said.lobe.partition(":")
-            yield f"lobe = ({kind.strip()!r}, lambda p: {_formula('lobe', width, fields)})"
+            with about("lobe"):
+                yield f"lobe = ({kind.strip()!r}, lambda p: {formula.source(width, fields)})"
         if self.said.albedo:
-            value = _formula("albedo", self.said.albedo, fields, "mu")
+            with about("albedo"):
+                value = formula.source(self.said.albedo, fields, ("mu",))
             yield f"def albedo(mu, p):\n    return {value}"
+        yield from self._sets()
         yield from (f"{name} = {value!r}" for name, value in self.said.members.items())
+
+    def _sets(self) -> Iterator[str]:
+        """Members that are parameter sets, which have a channel each if f is a colour."""
+        known = {p.name: [field_name(k) for k in p.fields()] for p in self.said.parameters}
+        known |= {k: [k] for fields in known.values() for k in fields}
+        channels = [{CHANNEL: float(k)} for k in range(3)] if self.coloured else [{}]
+        for key in ("verified", "lossless"):
+            text = getattr(self.said, key)
+            if text in ("true", "false"):
+                yield f"{key} = {text == 'true'}"
+            elif text:
+                with about(key):
+                    sets = [one | c for one in parameter_sets.every(text, known) for c in channels]
+                yield f"{key} = [{', '.join(f'Params(**{one!r})' for one in sets)}]"
+        if self.said.limits:
+            with about("limits"):
+                yield f"limits = {parameter_sets.limits(self.said.limits, known)!r}"
+
+
+def _is_counted(one: Parameter) -> bool:
+    return one.type in (Type.WHOLE, Type.SWITCH)
+
+
+def _annotation(one: Parameter) -> str:
+    """What a field of Params is declared as."""
+    return "int" if _is_counted(one) else "float"
+
+
+@contextlib.contextmanager
+def about(key: str) -> Iterator[None]:
+    """What is wrong meanwhile is said of a key of the description."""
+    try:
+        yield
+    except Complaint as error:
+        raise Complaint(f"key {key}: {error}") from None
 
 
 def _source(binary: bytes, name: str, numerals: Numerals) -> Source:
-    """An entry as Python; what is wrong with it is said of its key."""
-    try:
+    """An entry as Python."""
+    with about(name):
         return Source(binary, f"{name}_shader", numerals)
-    except Complaint as error:
-        raise Complaint(f"key {name}: {error}") from None
-
-
-def _formula(key: str, text: str, fields: list[str], *others: str) -> str:
-    """A formula of the description; what is wrong with it is said of its key."""
-    try:
-        return formula.source(text, fields, others)
-    except Complaint as error:
-        raise Complaint(f"key {key}: {error}") from None
 
 
 def _is_coloured(source: Source) -> bool:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from montecarlo_brdf.foreign.complaint import Complaint
@@ -39,14 +38,13 @@ class Variable(NamedTuple):
     initial: int | None
 
 
-@dataclass
 class Function:
     """A function: its result's type, blocks of instructions by label."""
 
-    number: int
-    result: int
-    parameters: list[tuple[int, int]] = field(default_factory=list)  # (number, type)
-    blocks: dict[int, list[Instruction]] = field(default_factory=dict)
+    def __init__(self, number: int, result: int) -> None:
+        self.number, self.result = number, result
+        self.parameters: list[tuple[int, int]] = []  # (number, type)
+        self.blocks: dict[int, list[Instruction]] = {}
 
     def instructions(self) -> Iterator[Instruction]:
         """All of them."""

@@ -134,7 +134,8 @@ class Writer:
         if arithmetic.compute(self.code, op, a) or self.memory.perform(op, a):
             return
         if op == Op.EXT_INST:
-            library.call(self.code, a)
+            for pointer, values in library.call(self.code, a):
+                self.memory.store(pointer, values)
         elif op == Op.FUNCTION_CALL:
             self._call(a)
         elif op in DERIVATIVES:

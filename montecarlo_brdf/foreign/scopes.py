@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable
 
+BRACE = re.compile(r"([{}])")
 NOT_CODE = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 
 
@@ -13,13 +15,14 @@ def bare(text: str) -> str:
     return NOT_CODE.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
 
 
+@functools.lru_cache(maxsize=1)  # it is asked of every parameter
 def depths(text: str) -> list[int]:
     """How many braces are open at each character."""
     found, depth = list[int](), 0
-    for character in text:
-        depth -= character == "}"
-        found.append(depth)
-        depth += character == "{"
+    for part in BRACE.split(text):
+        depth -= part == "}"
+        found += [depth] * len(part)
+        depth += part == "{"
     return found
 
 

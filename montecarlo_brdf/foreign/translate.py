@@ -27,7 +27,13 @@ from montecarlo_brdf.foreign import (
     trial,
 )
 from montecarlo_brdf.foreign.complaint import Complaint
-from montecarlo_brdf.foreign.description import Description, Statement, described, statements
+from montecarlo_brdf.foreign.description import (
+    Description,
+    Language,
+    Statement,
+    described,
+    statements,
+)
 from montecarlo_brdf.foreign.includes import Includes
 from montecarlo_brdf.foreign.language import shown
 from montecarlo_brdf.foreign.model_text import Texts, Version
@@ -35,7 +41,6 @@ from montecarlo_brdf.foreign.numerals import Numerals
 from montecarlo_brdf.foreign.widen import widened
 
 COMPILING, CALLING = 60.0, 2.0  # seconds
-EXPLORER = ".brdf"
 
 
 class Shader(NamedTuple):
@@ -50,19 +55,20 @@ class Shader(NamedTuple):
 
 def opened(path: Path, more: list[Statement] | None = None) -> Shader:
     """A shader's file, read and described; more: statements from elsewhere. Raises Complaint."""
-    includes = Includes([path.parent], shown, language.macros(path))
+    includes = Includes([path.parent], shown)
     text = includes.text(path)
     if not text.strip():
         raise Complaint("it is empty")
     said = described([*statements(text, str(path)), *(more or [])])
     includes.folders += [path.parent / folder for folder in said.folders]
-    includes.defined(said.defines)
-    if path.suffix == EXPLORER:
+    kind = language.language_of(path, said)
+    includes.defined(language.macros(kind) | said.defines)
+    if kind is Language.EXPLORER:
         said, text = explorer.described(text, path.name, said)
     sources = [_source(includes, path.parent / one) for one in said.sources]
     text = includes.resolved(text, path)
     if not said.f:
-        said.f = automatic.call(text, said.parameters)
+        automatic.bind(text, shown(path), said)
     whole = "".join([*sources, f'#line 1 "{shown(path)}"\n', text])
     return Shader(path, whole, said, includes.folders, includes.read)
 
@@ -80,13 +86,17 @@ def texts(shader: Shader, binaries: dict[str, bytes], optimise: bool = True) -> 
     said, name = shader.said, shader.path.name
     double = Version(said, name, {k: b[0] for k, b in both.items()}, Numerals(single=False))
     with within(CALLING, f"{shader.path}: its functions did not return within {CALLING:g} s"):
-        trial.call(trial.functions(double.text()))
-        double.coloured = double.coloured and not trial.is_grey(trial.functions(double.text()))
+        text = double.text()
+        space = trial.functions(text)
+        trial.call(space)
+        if double.coloured and trial.is_grey(space):
+            double.coloured = False
+            text = double.text()
     if said.precision == "double":
-        return Texts(double.text(), "")
+        return Texts(text, "")
     single = Version(said, name, {k: b[1] for k, b in both.items()}, Numerals(single=True))
     single.coloured = double.coloured
-    return Texts(double.text(), single.text())
+    return Texts(text, single.text())
 
 
 def answer(shader: Shader) -> dict[str, Any]:
@@ -97,10 +107,11 @@ def answer(shader: Shader) -> dict[str, Any]:
             language.binaries(shader.text, path, shader.said, shader.folders, shader.files)
         )
     found = texts(shader, binaries)
-    if shader.path.suffix != EXPLORER:
+    if language.language_of(path, shader.said) is not Language.EXPLORER:
         _refuse_unused(shader, found.double)
     files = {str(p): hashlib.sha256(content).hexdigest() for p, content in shader.files.items()}
-    return {"double": found.double, "single": found.single, "files": files}
+    return {"double": found.double, "single": found.single, "found": shader.said.found,
+            "files": files}  # fmt: skip
 
 
 def _refuse_unused(shader: Shader, text: str) -> None:

@@ -10,7 +10,7 @@ import json
 import os
 import sys
 import types
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -32,6 +32,11 @@ class Translation(NamedTuple):
 
     double: str
     single: str
+    found: list[str]  # which functions of the shader were taken without being named
+
+
+#: hears what was found in a shader, as a sentence
+listeners: list[Callable[[str], None]] = []
 
 
 def is_shader(spec: str) -> bool:
@@ -61,7 +66,10 @@ def translated(path: Path, said: Sequence[tuple[str, str]] = ()) -> Translation:
         cache.write(name, json.dumps(known).encode())
     for file in known["files"]:
         know_input(Path(file))
-    return Translation(known["double"], known["single"])
+    for sentence in known["found"]:
+        for hear in listeners:
+            hear(f"{path}: {sentence}")
+    return Translation(known["double"], known["single"], known["found"])
 
 
 def _name(path: Path, said: str) -> str:

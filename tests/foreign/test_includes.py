@@ -12,7 +12,8 @@ from montecarlo_brdf.foreign.includes import Includes
 
 def resolved(folder: Path, **macros: str) -> str:
     """The lines of main.glsl that are no directives."""
-    includes = Includes([folder / "lib"], str, macros)
+    includes = Includes([folder / "lib"], str)
+    includes.defined(macros)
     path = folder / "main.glsl"
     lines = includes.resolved(includes.text(path), path).splitlines()
     return " ".join(x.strip() for x in lines if x.strip() and not x.strip().startswith("#"))
