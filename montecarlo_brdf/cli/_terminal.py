@@ -40,7 +40,7 @@ def answers_alone() -> Iterator[None]:
     heard = set[str]()
 
     def hear(sentence: str) -> None:
-        if sentence not in heard and not _quiet():
+        if sentence not in heard and not quiet():
             click.echo(sentence, err=True)
         heard.add(sentence)
 
