@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 project = "montecarlo_brdf"
 author = "the authors of montecarlo_brdf"
+html_show_copyright = False
 release = __version__
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 exclude_patterns = ["conf.py"]
