@@ -38,7 +38,11 @@ nitpick_ignore_regex = [("py:class", OTHERS)]
 
 autodoc_member_order = "bysource"
 
-OUTSIDE = re.compile(r"\[[^]]+\]\(\.\./([^)]+)\)")  # a link to what is not on the site: its name
+#: a link to what is not on the site shows its name; one called after its file shows the title
+REWRITTEN = (
+    (re.compile(r"\[[^]]+\]\(\.\./([^)]+)\)"), r"`\1`"),
+    (re.compile(r"\[(\w+\.md)\]\(\1\)"), r"[](\1)"),
+)
 
 
 def setup(app: Sphinx) -> None:
@@ -47,4 +51,6 @@ def setup(app: Sphinx) -> None:
 
 
 def _filled(app: Sphinx, name: str, source: list[str]) -> None:
-    source[0] = OUTSIDE.sub(r"`\1`", manual.filled(source[0]))
+    source[0] = manual.filled(source[0])
+    for pattern, replacement in REWRITTEN:
+        source[0] = pattern.sub(replacement, source[0])

@@ -88,6 +88,7 @@ MISTAKES = {
     "furnac": ("did you mean 'furnace'?", "choose from", "identities", "show"),
     "identities --points halton": ("no point set 'halton'", "independent", "sobol"),
     "plot missing.json -o a.png": ("cannot read missing.json", "No such file"),
+    "bench --model lambert --seconds 0": ("seconds and seeds must be above 0", "0"),
     "plot": ("'REPORT'", "see brdf-check plot --help"),
 }
 

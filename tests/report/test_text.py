@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 from conftest import Outcome
 
@@ -57,6 +58,15 @@ def test_samples_are_no_more_than_were_allowed(cli: Callable[..., Outcome]) -> N
 def test_a_colours_channel_has_its_name(cli: Callable[..., Outcome]) -> None:
     out = cli("furnace", "--model", "lambert", "-p", "albedo=0.5/1", "--theta-o", 0).out
     assert "channel" in out.splitlines()[1]
+
+
+def test_a_parameter_may_be_called_like_a_column(
+    cli: Callable[..., Outcome], user_file: Callable[..., Path]
+) -> None:
+    params = "from typing import NamedTuple\nclass Params(NamedTuple):\n    channel: float = 0.5\n"
+    path = user_file(f"{params}def f(wo, wi, p):\n    return 0.1 * p.channel\n")
+    outcome = cli("run", "--model", path, "--check", "isotropy", "-p", "channel=0.25")
+    assert outcome.code == 0 and "(channel=0.25)" in outcome.out
 
 
 def test_too_few_samples_for_anything_are_told(cli: Callable[..., Outcome]) -> None:
