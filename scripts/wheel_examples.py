@@ -2,7 +2,8 @@
 
 python scripts/wheel_examples.py [WORD ...] builds the wheel, installs it into an empty environment
 in a folder whose name has blanks, and runs the examples there (with words: those that have one of
-them) with nothing else of this repository at hand. Exit code 1 if one does not run.
+them) with nothing else of this repository at hand. Exit code 1 if one does not run. A folder that
+BRDF_CHECK_CACHE_DIR names spares the compiling.
 """
 
 from __future__ import annotations
@@ -48,12 +49,12 @@ def installed(folder: Path) -> Path:
 
 def run(program: Path, line: str, work: Path) -> subprocess.CompletedProcess[str]:
     """A command line as a shell reads it, in a folder of its own."""
-    unset = ("PYTHONPATH", "BRDF_CHECK_CACHE_DIR", "BRDF_CHECK_QUIET")
+    unset = ("PYTHONPATH", "BRDF_CHECK_QUIET")
     there = {k: v for k, v in os.environ.items() if k not in unset}
     path = f"{program.parent}{os.pathsep}{there['PATH']}"
     return subprocess.run(
         line, shell=True, cwd=work, capture_output=True, encoding="utf-8",
-        env={**there, "PATH": path, "XDG_CACHE_HOME": str(program.parents[1] / "cache")},
+        env={"BRDF_CHECK_CACHE_DIR": str(program.parents[1] / "cache"), **there, "PATH": path},
     )  # fmt: skip
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import click
 
 from montecarlo_brdf.cli import _options
@@ -12,6 +14,10 @@ Examples:
   brdf-check docs
   brdf-check docs tutorial
 """
+
+
+#: what only the site of the pages makes something of
+OF_THE_SITE = re.compile(r"```\{toctree\}\n.*?```\n\n?|<!-- .*? -->\n", re.DOTALL)
 
 
 def page_names() -> list[str]:
@@ -33,5 +39,5 @@ def command(page: str | None) -> int:
         return 0
     if page not in page_names():
         raise UserError(unknown("page", page, page_names()))
-    tell((folder / f"{page}.md").read_text(encoding="utf-8"))
+    tell(OF_THE_SITE.sub("", (folder / f"{page}.md").read_text(encoding="utf-8")).rstrip())
     return 0

@@ -174,6 +174,9 @@ def test_pages_are_there(cli: Call) -> None:
     assert {*wheel} == {"docs", "examples"}
     assert cli("docs", "tutorial").out.startswith("# From 1/")
     assert "did you mean 'scenes'" in cli("docs", "scene").err
+    printed = cli("docs", "index").out + cli("docs", "tutorial").out
+    assert "toctree" not in printed and "<!--" not in printed
+    assert "| check a file of yours |" in printed and "$ brdf-check init" in printed
 
 
 def test_a_project_to_begin_with(
