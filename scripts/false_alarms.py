@@ -143,8 +143,8 @@ def tested(claim: Claim, points: str, many: int, count: int) -> Iterator[tuple[s
 def chi_squares(model: Any, one: Any, theta: float, count: int) -> Any:
     """p-values of draws against pdf, as the fit claim computes them."""
     case = Case(model, one, [theta])
-    cells = Cells(case, theta)
-    if not 0.0 < cells.tables[2] < sampling.HEAVIEST or SAMPLES * cells.error**2 > 1.0:
+    cells = Cells(case, theta, sampling.TOLERANCE)
+    if not 0.0 < cells.mass < sampling.HEAVIEST or SAMPLES * cells.error**2 > 1.0:
         return np.array([])
     ask = functools.partial(sampling.fit, case, theta, cells)
     return np.array([ask(Plan(samples=SAMPLES, seed=s), 1e-9).p_value for s in range(count)])

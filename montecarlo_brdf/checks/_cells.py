@@ -1,4 +1,9 @@
-"""Cells of equal probability under a sampler's pdf, in coordinates that follow its lobe."""
+"""Groups of cells of about equal probability under a sampler's pdf.
+
+The cells are those of the quadrature that finds all peaks of the density, wherever they are and
+however narrow (estimate.quadrature), cut until none holds more than a group may; so each has a
+probability with an error bar of its own.
+"""
 
 from __future__ import annotations
 
@@ -8,114 +13,110 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks._draws import density_integral_of
-from montecarlo_brdf.checks._truth import lobe_scale
+from montecarlo_brdf.cases.case import Case, pointwise
+from montecarlo_brdf.checks._truth import AIM, probes
 from montecarlo_brdf.estimate import cells
-from montecarlo_brdf.estimate.quadrature import Integral
+from montecarlo_brdf.estimate.mesh import Parts
+from montecarlo_brdf.estimate.quadrature import parts
 from montecarlo_brdf.estimate.regions import Coordinates
+from montecarlo_brdf.estimate.tree import LEAF
+from montecarlo_brdf.statistics import quantile
 
 if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array
+    from montecarlo_brdf.estimate.tree import Places
 
-COARSE, FINE, FINEST = (384, 256), (768, 512), (1536, 1024)  # grids of tabulated densities
-JITTERED = 0x5EED  # the key of places at random in their squares
-CELLS = cells.ROWS * cells.COLUMNS
+GROUPS = 192
+SHOWN = 1000  # cells of a picture
+FINER = 0.25  # of a distance's tolerance for the mass: errors of groups add up to a larger distance
+SURELY = 1e-9  # chance that probabilities are farther from the truth than is said
+SIGMAS = 6.1  # standard errors of a normal that so seldom are exceeded on either side
+
+
+def norm_bound(variance: Array, many: int) -> float:
+    """What the norm of independent normal errors exceeds with probability SURELY at most, wider as
+    Student's t is, since their variances are estimated by so many replicates.
+
+    Source: Laurent, Massart 2000, "Adaptive estimation of a quadratic functional by model
+    selection", lemma 1: P(sum a Z^2 > sum a + 2 |a| sqrt(x) + 2 max(a) x) <= exp(-x).
+    """
+    x, spread = math.log(1.0 / SURELY), float(np.linalg.norm(variance))
+    square = float(variance.sum()) + 2.0 * spread * math.sqrt(x) + 2.0 * float(variance.max()) * x
+    return quantile(SURELY / 2.0, many - 1) / SIGMAS * math.sqrt(square)
 
 
 class Cells:
-    """Columns of equal probability by the pdf's marginal in azimuth, rows by its conditionals."""
+    """The cells of a density, for one direction."""
 
-    def __init__(self, case: Case, theta: float, size: tuple[int, int] = FINE) -> None:
-        self.size = size
-        self.model, self.p = case.model, case.one
-        self.wo = np.array(case.wo(theta))
-        self.coordinates = Coordinates(self.wo, lobe_scale(case.model, case.one, self.wo))
+    def __init__(self, case: Case, theta: float, tolerance: float) -> None:
+        self.model, self.p, self.wo = case.model, case.one, case.wo(theta)
+        self.coordinates, self._target = Coordinates(self.wo), FINER * AIM * tolerance
 
     @functools.cached_property
-    def tables(self) -> tuple[Array, Array, float]:
-        """(cumulated marginal in b, cumulated conditionals in x, total mass), midpoint rule."""
-        density, _ = cells.tabulated(self.model, self.p, self.coordinates.place, self.size)
-        density = density.reshape(self.size)
-        columns = np.concatenate([np.zeros((1, self.size[1])), np.cumsum(density, axis=0)])
-        marginal = np.concatenate([[0.0], np.cumsum(columns[-1])])
-        return marginal, columns, float(marginal[-1])
-
-    @functools.cached_property
-    def jittered(self) -> Array:
-        """The cells' probabilities by another grid, at random in each square."""
-        place = self.coordinates.place
-        density, wi = cells.tabulated(self.model, self.p, place, self.size, JITTERED)
-        at = cells.placed(self.model, self.cut, wi)
-        return np.bincount(at, weights=density, minlength=CELLS).astype(float)
-
-    @functools.cached_property
-    def integral(self) -> Integral:
-        """Of the density, by a quadrature that finds its peaks wherever they are."""
-        return density_integral_of(self.model, self.p, tuple(map(float, self.wo)))
+    def parts(self) -> Parts:
+        """The cells and their probabilities."""
+        pdf, wo = pointwise(self.model, self.p).pdf, np.array(self.wo)
+        seen = probes(self.model, self.p, self.wo)
+        return parts(lambda wi: pdf(wo, wi), self.coordinates, self._target, seen, 1.0 / GROUPS)
 
     @property
+    def mass(self) -> float:
+        """The density's integral."""
+        return float(self.parts.value.sum())
+
+    @functools.cached_property
+    def group(self) -> Places:
+        """The group of each cell: runs of neighbours that hold as much as others."""
+        value = np.maximum(self.parts.value, 0.0)
+        middle = (np.cumsum(value) - 0.5 * value) / value.sum()
+        run = np.minimum((GROUPS * middle).astype(int), GROUPS - 1)
+        found: Places = np.unique(run, return_inverse=True)[1]
+        return found
+
+    @functools.cached_property
+    def probability(self) -> Array:
+        """Of each group, and last of a rejected draw."""
+        each = np.bincount(self.group, np.maximum(self.parts.value, 0.0))
+        return np.append(each, max(1.0 - self.mass, 0.0))
+
+    @functools.cached_property
     def error(self) -> float:
-        """Distance between the cells' probabilities by the two grids: what a density with steps
-        leaves unresolved; and what both have less, or more, than its integral, which may be of any
-        cell."""
-        each = self.tables[2] / CELLS
-        grids = float(np.sqrt(np.sum((self.jittered - each) ** 2 / each)))
-        return grids + self.lacking / math.sqrt(each)
-
-    @property
-    def lacking(self) -> float:
-        """What the cells surely have less, or more, than the density's integral."""
-        return max(0.0, abs(self.integral.value - self.tables[2]) - self.integral.error)
+        """How far the probabilities may be from the truth, as a distance of distributions."""
+        each = np.maximum(self.probability[:-1], 1e-300)
+        variance = np.bincount(self.group, self.parts.variance) / each
+        missed = np.bincount(self.group, self.parts.missed) / np.sqrt(each)
+        return norm_bound(variance, self.parts.many) + float(np.linalg.norm(missed))
 
     @functools.cached_property
-    def cut(self) -> cells.Cut:
+    def numbers(self) -> Array:
         """The cells as compiled code reads them."""
-        marginal, columns, mass = self.tables
-        inside = (columns / np.maximum(columns[-1], 1e-300)).T
-        rows = [edges(one, cells.ROWS) for one in inside]
-        between = edges(marginal / mass, cells.COLUMNS)
-        return cells.Cut(*self.size, np.concatenate([self.coordinates.place, between, *rows]))
+        nodes = self.parts.nodes.copy()
+        nodes[self.parts.node] = np.stack(
+            [np.full(len(self.group), LEAF), *(self.group,) * 3], axis=1
+        )
+        return np.concatenate([self.coordinates.place, nodes.ravel()])
 
     def counts(self, key: int, samples: int, threads: int = 1) -> Array:
-        """Draws in each cell, and last those that were rejected or are not finite."""
-        return cells.counted(self.model, self.p, self.cut, key, samples, threads)
+        """Draws in each group, and last those that were rejected or are not finite."""
+        groups = len(self.probability) - 1
+        return cells.counted(self.model, self.p, self.numbers, groups, key, samples, threads)
 
-    def shown(self, counts: Array) -> dict[str, Any]:
-        """Counts with the edges of the cells, for a picture: in [0, 1], azimuth around the lobe's
-        centre (a turn), then for each column between two of these the distance from the centre to
-        the horizon, in the middle of the column."""
-        nx, nb = self.size
-        numbers = self.cut.numbers[cells.FIXED :]
-        columns = np.clip(numbers[: cells.COLUMNS - 1], 0.0, nb)
-        around = np.concatenate([[0.0], columns, [nb]])
-        strips = numbers[cells.COLUMNS - 1 :].reshape(nb, cells.ROWS - 1)
-        middle = np.minimum((0.5 * (around[:-1] + around[1:])).astype(int), nb - 1)
-        rows = np.clip(strips[middle], 0.0, nx) / nx
-        return {
-            "counts": [int(n) for n in counts],
-            "mass": float(self.tables[2]),
-            "azimuth": np.round(around / nb, 5).tolist(),
-            "distance": [[0.0, *np.round(row, 5).tolist(), 1.0] for row in rows],
-        }
+    def shown(self, counts: Array) -> dict[str, Any] | None:
+        """Counts with the cells, for a picture: [x, x, b, b, probability, group], where b is the
+        azimuth around the lobe's centre (a turn) and x the distance from it to the horizon; None
+        if no eye would tell so many apart."""
+        low, high = self.parts.low, self.parts.low + self.parts.size
+        if len(low) > SHOWN:
+            return None
+        sides = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
+        rows = zip(np.round(sides, 5).tolist(), self.parts.value, self.group, strict=True)
+        cells = [[*side, float(f"{max(p, 0.0):.4g}"), int(k)] for side, p, k in rows]
+        return {"counts": [int(n) for n in counts], "cells": cells}
 
-    @property
-    def probability(self) -> Array:
-        """Of each cell, and last of a rejected draw."""
-        return np.array([self.tables[2] / CELLS] * CELLS + [self.rejected])
-
-    @property
-    def rejected(self) -> float:
-        """The share of rejected draws by the density's integral."""
-        return max(1.0 - self.integral.value, 0.0)
-
-
-def edges(cumulated: Array, parts: int) -> Array:
-    """Where a piecewise linear distribution, given at 0, 1, 2, ..., reaches k/parts; infinity if
-    nowhere."""
-    shares = np.arange(1, parts) / parts
-    after = np.searchsorted(cumulated, shares)
-    inner = np.minimum(after, len(cumulated) - 1)
-    low, high = cumulated[inner - 1], cumulated[inner]
-    reached = inner - 1 + (shares - low) / np.where(high > low, high - low, 1.0)
-    return np.where(after < len(cumulated), reached, np.inf)
+    def about(self, group: int) -> tuple[float, float]:
+        """The polar angle and azimuth in degrees of the heaviest cell of a group."""
+        rows = np.flatnonzero(self.group == group)
+        k = rows[int(np.argmax(self.parts.value[rows]))]
+        x, b = self.parts.low[k] + 0.5 * self.parts.size[k]
+        w = self.coordinates.directions(np.array([x]), np.array([b]))[0][0]
+        return math.degrees(math.acos(min(1.0, w[2]))), math.degrees(math.atan2(w[1], w[0])) % 360.0

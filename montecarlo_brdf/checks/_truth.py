@@ -18,11 +18,10 @@ from montecarlo_brdf.vectors import Vec, from_degrees, mirrored
 
 if TYPE_CHECKING:
     from montecarlo_brdf.cases.directions import Array
-    from montecarlo_brdf.estimate.quadrature import Integral, Probes
+    from montecarlo_brdf.estimate.mesh import Probes
+    from montecarlo_brdf.estimate.quadrature import Integral
 
-#: numbers from which lobe coordinates learn the width of a sampler's lobe
-PILOT = 4096
-PROBES = 2048  # of these
+PROBES = 2048  # directions of a kind
 ROUNDING = 4.0 * 2.0**-52
 SOURCE = "adaptive quadrature"
 RESOLVED = 0.25  # of a tolerance: what the error of a quadrature may take of it to judge by
@@ -159,7 +158,7 @@ def _cosine_probes(seed: int) -> Probes:
 
     from montecarlo_brdf.estimate.mixture import cosine
 
-    wi = cosine(_pilot(seed)[:PROBES])
+    wi = cosine(_pilot(seed))
     return wi, np.pi / (PROBES * wi[:, 2])
 
 
@@ -174,7 +173,7 @@ def own_probes(
 
     if not (model.sample and model.pdf):
         return ()
-    drawn = _pilot_draws(model, one, tuple(map(float, fixed)), seed)[1]
+    drawn = _pilot_draws(model, one, tuple(map(float, fixed)), seed)
     density = pointwise(model, one).pdf(np.array(fixed), drawn)
     unit = np.abs(np.sum(drawn * drawn, axis=1) - 1.0) < 1e-3
     known = np.isfinite(density) & (density > 0.0) & unit
@@ -196,29 +195,21 @@ def as_measurement(value: float, error: float) -> Measurement:
     return Measurement("quadrature", e, unfit, error)
 
 
-def lobe_scale(model: Model, one: Parameters, wo: Array) -> float:
-    """The smallest slope of interest, from the model's own draws."""
-    from montecarlo_brdf.estimate.quadrature import scale_of
-
-    return scale_of(wo, _pilot_draws(model, one, tuple(map(float, wo)))[0])
-
-
 @functools.lru_cache(maxsize=8)
-def _pilot_draws(model: Model, one: Parameters, wo: Vec, seed: int = 0) -> tuple[Array, Array]:
-    """Draws of the model's sampler above the horizon: of all pilot numbers, and of the first
-    PROBES."""
+def _pilot_draws(model: Model, one: Parameters, wo: Vec, seed: int = 0) -> Array:
+    """Draws of the model's sampler above the horizon."""
     import numpy as np
 
     drawn, _ = pointwise(model, one).sample(np.array(wo), _pilot(seed))
-    above = np.isfinite(drawn).all(axis=1) & (drawn[:, 2] > 0.0)
-    return drawn[above], drawn[:PROBES][above[:PROBES]]
+    above: Array = drawn[np.isfinite(drawn).all(axis=1) & (drawn[:, 2] > 0.0)]
+    return above
 
 
 @functools.lru_cache(maxsize=4)
 def _pilot(seed: int) -> Array:
     import numpy as np
 
-    return np.random.default_rng([PILOT, seed]).random((PILOT, 3))
+    return np.random.default_rng([PROBES, seed]).random((PROBES, 3))
 
 
 def _weight(p: Parameters, term: Term) -> float:

@@ -13,6 +13,7 @@ can).
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
@@ -53,6 +54,7 @@ if TYPE_CHECKING:
 
 #: times the samples, for the rejected draws: an edge in the integrand, but a cheap one
 EDGE = (4, 32)
+MOST_REJECTED = 1 << 25  # of these draws
 GRAZING = 86.0  # degrees: beyond that samplers tend to have a way of their own
 
 NAME = "pdf"
@@ -83,7 +85,7 @@ def claims(case: Case) -> Iterator[Claim]:
         yield _normalisation(case, theta)
         yield from _differences(case, theta)
     at = survey(case)
-    for k in {*_decidable(at), _mixture.worst(at, at.mass - 1.0, _excess)}:
+    for k in _decidable(at):
         yield _normalisation(*at.place(k))
     if not chosen:
         yield from _differences(*at.place(int(np.argmax(sure(_draws.deficits(at))))))
@@ -100,12 +102,21 @@ def _weights(case: Case, chosen: bool) -> Claim:
     return _claim(case, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, _draws.weight)
 
 
-def _decidable(at: Survey) -> list[int]:
-    """The heaviest place whose density the quadrature resolves: elsewhere nothing would be said."""
-    for k in _draws.heaviest(at):
-        if _draws.density_integral(*at.place(k)).error <= RESOLVED * MASS_TOLERANCE:
-            return [k]
-    return []
+def _decidable(at: Survey) -> set[int]:
+    """The heaviest place whose density the quadrature resolves, and the worst of those that the
+    mixture has nodes for, if it does there or says what refutes: elsewhere nothing would be said.
+    """
+    places = (k for k in _draws.heaviest(at) if _resolved(*at.place(k)))
+    found = set(itertools.islice(places, 1))
+    worst = _mixture.worst(at, at.mass - 1.0, _excess)
+    return found | {worst} if _resolved(*at.place(worst)) else found
+
+
+def _resolved(case: Case, theta: float) -> bool:
+    """Whether the quadrature of pdf tells its mass, or that it is no density's: more than 1."""
+    found = _draws.density_integral(case, theta)
+    heavy = found.value - found.error > 1.0 + MASS_TOLERANCE
+    return heavy or found.error <= RESOLVED * MASS_TOLERANCE
 
 
 def _excess(nodes: Nodes) -> Array:
@@ -185,7 +196,7 @@ def _held(case: Case, theta: float, seed: int) -> Measurement:
 def _rejected(case: Case, theta: float, plan: Plan) -> Estimate:
     lost = integrand(case.model, Quantity.REJECTED, Sampler.OWN)
     for times in EDGE:
-        more = plan._replace(samples=times * plan.samples)
+        more = plan._replace(samples=max(plan.samples, min(times * plan.samples, MOST_REJECTED)))
         rows = estimates(case.model, case.one, case.wo(theta), [lost], more, (NAME,))
         if rows[0][0].half_width(LEVEL) < RESOLVED * case.tolerated(MASS_TOLERANCE):
             break

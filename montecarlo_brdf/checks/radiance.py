@@ -9,6 +9,7 @@ right. It cannot see: an f that is wrong itself.
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -37,6 +38,7 @@ NAME = "radiance"
 QUESTION = "does it hold under light that is not constant?"
 PROPERTY = Property.PDF
 TOLERANCE = 10.0 * AGREEMENT_TOLERANCE
+FARTHEST = 1000  # powers of 2 that a sky may be brighter or darker than 1
 
 
 def cosine_sky(w: Vec) -> float:
@@ -51,13 +53,13 @@ def tilted_sky(w: Vec) -> float:
     return 0.25 * c * c
 
 
-def either_sky(w: Vec, which: float) -> float:
-    """The sky that a number chooses: both share their kernels."""
-    return cosine_sky(w) if which == 0.0 else tilted_sky(w)
+def either_sky(w: Vec, light: float) -> float:
+    """As bright as a number says, whose sign chooses the sky: both share their kernels."""
+    return light * cosine_sky(w) if light > 0.0 else -light * tilted_sky(w)
 
 
 SKIES: dict[str, Callable[[Vec], float]] = {"cos": cosine_sky, "tilted": tilted_sky}
-WHICH = {name: float(k) for k, name in enumerate(SKIES)}
+WHICH = {"cos": 1.0, "tilted": -1.0}
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -77,7 +79,7 @@ def claims(case: Case) -> Iterator[Claim]:
                 Bound.EQUAL,
                 expected,
                 case.tolerated(TOLERANCE) * abs(expected.value),
-                functools.partial(_measure, there, theta, name),
+                functools.partial(_measure, there, theta, name, _brightness(expected.value)),
                 property=PROPERTY,
                 fallback=_fallback(there, theta, name),
                 afresh=afresh,
@@ -121,11 +123,21 @@ def _integral(case: Case, theta: float, name: str, seed: int) -> Integral:
     return _truth.integral(lit, wo, seen, seed, _truth.AIM * TOLERANCE)
 
 
-def _measure(case: Case, theta: float, name: str, plan: Plan) -> list[Measurement]:
+def _brightness(expected: float) -> float:
+    """Of a sky under which radiance is of the order of 1: squares of values are numbers then. A
+    power of 2, which changes no digit."""
+    power = math.frexp(expected)[1] if math.isfinite(expected) else 0
+    return math.ldexp(1.0, max(-FARTHEST, min(FARTHEST, -power)))
+
+
+def _measure(
+    case: Case, theta: float, name: str, brightness: float, plan: Plan
+) -> list[Measurement]:
     model, wo = case.model, case.wo(theta)
     chosen = samplers_of(model)
     means = [integrand(model, Quantity.RADIANCE, s, SKY=either_sky) for s in chosen]
     subject = subject_of(model, case.one)
-    row = evaluate(subject, (*wo, WHICH[name]), means, plan, (name, NAME))[0]
-    sight = trust.look(model, case.one, wo)
-    return [trust.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]
+    row = evaluate(subject, (*wo, brightness * WHICH[name]), means, plan, (name, NAME))[0]
+    sight = trust.look(model, case.one, wo).under(brightness)
+    found = [trust.measured(s, e, sight) for s, e in zip(chosen, row, strict=True)]
+    return [one.times(1.0 / brightness) for one in found]

@@ -40,6 +40,7 @@ class Plan(NamedTuple):
     method: Choice = Choice.GIVEN  # AUTO also without a target
     sums: PartialSums | None = None  # where long jobs keep how far they are
     effort: float = 1.0  # in (0, 1]: the share of pairs, places and nodes that checks look at
+    reach: int = 0  # samples, where those allowed leave open what so many decide
 
 
 def check_points(points: str) -> PointSet:

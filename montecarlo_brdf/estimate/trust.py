@@ -77,6 +77,11 @@ class Sight(NamedTuple):
     signed: bool = False  # whether f may be negative: its mean then is small for no lack of samples
     ends: Ends = Ends()  # of the own sampler's numbers
 
+    def under(self, brightness: float) -> Sight:
+        """The same of f under so bright a light."""
+        highest, brightest = brightness * self.highest, brightness * self.brightest
+        return self._replace(highest=highest, brightest=brightest)
+
     def largest(self, sampler: Sampler) -> float:
         """The largest f cos/pdf to be expected."""
         return SCALE[sampler] * (self.highest if DENSITY[sampler] else self.brightest)

@@ -7,7 +7,7 @@ import math
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, ExactClaim, FitClaim, Limit, Skip, Slope, SlopeClaim
 from montecarlo_brdf.judge.finding import Bound, Finding, Verdict
-from montecarlo_brdf.judge.mean import FRESH, looks, mean_finding
+from montecarlo_brdf.judge.mean import FRESH, further, looks, mean_finding
 
 LEVEL = 1e-9
 SLOPE_LEVEL = 1e-6  # chance that a true claim about a slope is refuted
@@ -59,13 +59,14 @@ def _limit(claim: Limit) -> Finding:
 
 def _fit(claim: FitClaim, plan: Plan, known: str | None, level: float) -> Finding:
     """Pass if the distance is surely small, fail if rejected twice on independent streams."""
-    verdict = Verdict.INCONCLUSIVE
-    for look, samples in enumerate(looks(plan.samples), start=1):
+    verdict, taken = Verdict.INCONCLUSIVE, 0
+    for look, samples in enumerate([*looks(plan.samples), *further(plan)], start=1):
         spent = level * 2.0**-look
         sized = plan._replace(samples=samples)
         fit = claim.measure(sized, spent)
-        if fit.note:
+        if fit.note or fit.samples == taken:  # it takes no more draws
             break
+        taken = fit.samples
         if fit.p_value < spent and fit.distance > claim.tolerance:
             again = claim.measure(sized._replace(seed=plan.seed + FRESH), spent)
             if again.p_value < spent:

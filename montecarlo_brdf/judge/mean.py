@@ -182,6 +182,16 @@ def looks(most: int) -> list[int]:
     return [*sizes, most]
 
 
+def further(plan: Plan) -> list[int]:
+    """Sample sizes of the looks beyond those allowed, where these leave a claim open that more are
+    known to decide."""
+    sizes, size = [], plan.samples * GROWTH
+    while size <= plan.reach:
+        sizes.append(size)
+        size *= GROWTH
+    return sizes
+
+
 def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) -> Finding:
     """The finding for a mean: looked at until every estimator that can has decided.
 
@@ -191,17 +201,17 @@ def mean_finding(claim: MeanClaim, plan: Plan, known: str | None, level: float) 
     """
     opinions, looked = _looked_at(claim, plan, level)
     if overall(opinions) != Verdict.FAIL or not _of_same_f(claim):
-        return _finding(claim, opinions, level, (looked, plan.samples), known)
-    found, further = _looked_at(replace(claim, expected=None), plan, level)
+        return _finding(claim, opinions, level, (looked, max(looked, plan.samples)), known)
+    found, again = _looked_at(replace(claim, expected=None), plan, level)
     if overall(found) == Verdict.PASS or (_missed(opinions) and overall(found) == Verdict.FAIL):
         return _finding(
-            replace(claim, expected=None), found, level, (further, plan.samples), known
+            replace(claim, expected=None), found, level, (again, max(again, plan.samples)), known
         )
     told = None
     if _missed(opinions) or not _again(claim, opinions, plan, level):
         told = _unresolved(claim, opinions)
         opinions = changed(opinions, lambda o: o.verdict == Verdict.FAIL, Verdict.INCONCLUSIVE)
-    return _finding(claim, opinions, level, (looked, plan.samples), known, told)
+    return _finding(claim, opinions, level, (looked, max(looked, plan.samples)), known, told)
 
 
 def _again(claim: MeanClaim, opinions: Opinions, plan: Plan, level: float) -> bool:
@@ -250,18 +260,38 @@ def _missed(opinions: Opinions) -> bool:
 
 def _looked_at(claim: MeanClaim, plan: Plan, level: float) -> tuple[Opinions, int]:
     """What all estimators say at last, and the samples of that look."""
-    opinions: Opinions = []
-    for look, samples in enumerate(looks(plan.samples), start=1):
-        spent = level * 2.0**-look
-        sized = plan._replace(samples=samples)
-        opinions = judged(claim, claim.measure(sized), spent)
-        opinions = confirmed(claim, sized, spent, opinions)
+    allowed, opinions = looks(plan.samples), list[Opinion]()
+    for look, samples in enumerate(allowed, start=1):
+        opinions = _at_look(claim, plan, level, look, samples)
         if overall(opinions) == Verdict.FAIL or settled(claim, opinions, plan.samples):
             break
     if claim.fallback and overall(opinions) == Verdict.INCONCLUSIVE:
         last = _asked_last if claim.expected else _compared_last
-        opinions = last(claim, opinions, plan.seed, spent)
-    return opinions, sized.samples
+        opinions = last(claim, opinions, plan.seed, level * 2.0**-look)
+    for look, samples in enumerate(further(plan), start=1 + len(allowed)):
+        if overall(opinions) != Verdict.INCONCLUSIVE or not _within(claim, opinions, plan):
+            break
+        opinions = _at_look(claim, plan, level, look, samples)
+    return opinions, samples
+
+
+def _at_look(claim: MeanClaim, plan: Plan, level: float, look: int, samples: int) -> Opinions:
+    """What all estimators say at one look."""
+    spent, sized = level * 2.0**-look, plan._replace(samples=samples)
+    return confirmed(claim, sized, spent, judged(claim, claim.measure(sized), spent))
+
+
+def _within(claim: MeanClaim, opinions: Opinions, plan: Plan) -> bool:
+    """Whether the samples within reach may decide what is open, errors falling as they do at best:
+    two estimators that are held against each other must do so together. Those that took fewer than
+    they may would take no more."""
+    growing = [o for o in opinions if o.measurement.estimate.samples >= plan.samples]
+    needs = sorted(
+        o.measurement.needs or math.inf if o.verdict is None else needed(claim, o, FASTEST)
+        for o in growing
+    )
+    both = 1 if claim.expected else 2
+    return len(needs) >= both and both * needs[both - 1] <= plan.reach
 
 
 def confirmed(claim: MeanClaim, plan: Plan, level: float, opinions: Opinions) -> Opinions:

@@ -33,22 +33,19 @@ class Draws(NamedTuple):
 
 
 class Cell(NamedTuple):
-    """A cell in [0, 1]^2 with the draws found in it and what pdf expects there."""
+    """A cell in [0, 1]^2 with the draws found in it, which are counted together with those of its
+    neighbours, what pdf expects there, and by how many standard deviations the counts differ."""
 
     x: tuple[float, float]
     y: tuple[float, float]
     found: float
     expected: float
+    residual: float
 
     @property
     def area(self) -> float:
         """Its share of the picture."""
         return max((self.x[1] - self.x[0]) * (self.y[1] - self.y[0]), 1e-9)
-
-    @property
-    def residual(self) -> float:
-        """The difference in standard deviations."""
-        return (self.found - self.expected) / math.sqrt(max(self.expected, 1e-9))
 
 
 def draws(results: Sequence[Result]) -> Draws | None:
@@ -66,18 +63,19 @@ def draws(results: Sequence[Result]) -> Draws | None:
 
 
 def cells(finding: Finding) -> list[Cell]:
-    """The cells of a finding, column by column."""
+    """The cells of a finding."""
     data: Mapping[str, Any] = finding.draws or {}
-    around, out = data["azimuth"], data["distance"]
-    counts = [float(n) for n in data["counts"]]
-    each = sum(counts) * float(data["mass"]) / (len(counts) - 1)
-    pairs = [(k, j) for k, rows in enumerate(out) for j in range(len(rows) - 1)]
-    if not all(map(math.isfinite, (*counts, each))) or len(pairs) != len(counts) - 1:
+    counts, rows = [float(n) for n in data["counts"]], data["cells"]
+    total, due = sum(counts), [0.0] * (len(counts) - 1)
+    for *_, probability, group in rows:
+        due[group] += total * probability
+    if not (rows and all(map(math.isfinite, (*counts, *due))) and min(due) > 0.0):
         raise ValueError("counts")
     return [
-        Cell((around[k], around[k + 1]), (out[k][j], out[k][j + 1]), n, each)
-        for (k, j), n in zip(pairs, counts, strict=False)
-    ]
+        Cell((b0, b1), (x0, x1), counts[k] * total * p / due[k], total * p,
+             (counts[k] - due[k]) / math.sqrt(due[k]))
+        for x0, x1, b0, b1, p, k in rows
+    ]  # fmt: skip
 
 
 def _panels(found: Sequence[Cell]) -> list[Panel]:

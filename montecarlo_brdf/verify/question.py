@@ -48,7 +48,7 @@ class Settings(NamedTuple):
         cls, points: str = "sobol", samples: int = SAMPLES, seed: int = 0,
         threads: int | None = None, tolerance: float | None = None,
         target_error: float | None = None, method: str | None = None,
-        sums: PartialSums | None = None, effort: float = 1.0,
+        sums: PartialSums | None = None, effort: float = 1.0, reach: int = 0,
     ) -> Settings:  # fmt: skip
         """As a caller says it. Raises UserError for a value that is not allowed."""
         named = check_points(points)
@@ -65,7 +65,7 @@ class Settings(NamedTuple):
             raise UserError(f"effort must be a number in (0, 1], not {effort}")
         plan = Plan(
             named, samples, seed=seed, threads=threads or all_threads(),
-            target_error=target_error, method=choice, sums=sums, effort=effort,
+            target_error=target_error, method=choice, sums=sums, effort=effort, reach=reach,
         )  # fmt: skip
         return cls(plan, tolerance)
 

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from montecarlo_brdf.estimate.quadrature import Probes, integrate, star
+from montecarlo_brdf.estimate.mesh import Probes
+from montecarlo_brdf.estimate.quadrature import integrate, parts, star
 from montecarlo_brdf.estimate.regions import Around, Coordinates
 from montecarlo_brdf.vectors import from_degrees
 
@@ -53,9 +54,25 @@ def test_a_star_sees_a_needle_of_any_width(width: float) -> None:
     assert value == pytest.approx(1.0, abs=error + 2.0 * width**2) and error < 2e-5
 
 
+def test_parts_of_a_needle_hold_no_more_than_their_share() -> None:
+    """And add up to the integral; the tree finds each cell by its middle."""
+    centre, share = from_degrees(20.0, 110.0), 0.01
+    needle, chart = Needles(1e-3, centre), Coordinates(from_degrees(60.0))
+    found = parts(needle, chart, 1e-6, [star(centre)], share)
+    assert found.value.sum() == pytest.approx(1.0, abs=found.error + 1e-5)
+    assert found.value.max() < 1.01 * share
+    middle = found.low + 0.5 * found.size
+    for place, node in list(zip(middle, found.node, strict=True))[::7]:
+        at = 0
+        while found.nodes[at, 0] >= 0.0:
+            side, edge, below, above = found.nodes[at]
+            at = int(below if place[int(side)] < edge else above)
+        assert at == node
+
+
 def test_what_probes_see_and_cells_do_not_is_the_error(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no cell may be cut."""
-    monkeypatch.setattr("montecarlo_brdf.estimate.quadrature.MOST_CELLS", 1)
+    monkeypatch.setattr("montecarlo_brdf.estimate.mesh.MOST_CELLS", 1)
     needle = Needles(1e-4, from_degrees(20.0, 110.0))
     value, error = integrate(needle, Coordinates(UP), probes=[needle.drawn(1000, 0)])
     assert abs(value) < 0.5 and error == pytest.approx(1.0, abs=0.1)

@@ -254,8 +254,10 @@ def test_lines_that_no_check_ran_are_marked() -> None:
 
 def counted(**changes: Any) -> Finding:
     """Two columns of two cells: 10 draws in one that should have 25."""
-    data = {"counts": [10, 30, 30, 30, 0], "mass": 1.0, "azimuth": [0.0, 0.5, 1.0],
-            "distance": [[0.0, 0.2, 1.0], [0.0, 0.4, 1.0]]}  # fmt: skip
+    quarters = [(0.0, 0.2, 0.0, 0.5), (0.2, 1.0, 0.0, 0.5), (0.0, 0.4, 0.5, 1.0),
+                (0.4, 1.0, 0.5, 1.0)]  # fmt: skip
+    data = {"counts": [10, 30, 30, 30, 0],
+            "cells": [[*sides, 0.25, k] for k, sides in enumerate(quarters)]}  # fmt: skip
     return replace(many(1)[0], draws={**data, **changes})
 
 
@@ -272,7 +274,7 @@ def test_draws_are_shown_beside_the_pdf() -> None:
 
 
 @pytest.mark.parametrize(
-    "changes", [{"counts": []}, {"counts": [1, 2]}, {"azimuth": None}, {"mass": "much"}]
+    "changes", [{"counts": []}, {"counts": [1, 2]}, {"cells": None}, {"cells": [[0.0, 1.0]]}]
 )
 def test_damaged_draws_are_left_out(changes: dict[str, Any]) -> None:
     result = Result("my.py", {}, "sampling", [counted(**changes)])
@@ -285,7 +287,7 @@ def test_every_look_at_draws_can_be_shown() -> None:
     assert findings and all(f.draws for f in findings)
     for one in findings:
         found = densities.cells(one)
-        assert sum(c.found for c in found) <= one.samples  # type: ignore[operator]
+        assert sum(c.found for c in found) <= 1.001 * one.samples  # type: ignore[operator]
         assert math.fsum(c.area for c in found) == pytest.approx(1.0, abs=1e-3)
         assert max(abs(c.residual) for c in found) < 6.0
     again = json.loads(report.to_json())["results"][0]["findings"][0]["draws"]
