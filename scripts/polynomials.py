@@ -1,4 +1,4 @@
-"""Print the polynomial coefficients of special.py and models/_smith.py, with the error of each fit.
+"""Print the coefficients of special.py, compile/sines.py and models/_smith.py, with their errors.
 
 Chebyshev fits in 40 digits (mpmath.chebyfit), so that the printed doubles can be checked by anyone:
 python scripts/polynomials.py. Leading terms that must be exact are taken out before fitting.
@@ -11,6 +11,19 @@ mp.mp.dps = 40
 def odd_sin(t: mp.mpf) -> mp.mpf:
     x = mp.sqrt(t)
     return mp.pi if x == 0 else mp.sin(mp.pi * x) / x
+
+
+def sin_rest(q: mp.mpf) -> mp.mpf:
+    r = mp.sqrt(q)
+    return -mp.mpf(1) / 6 if r < 1e-12 else (mp.sin(r) / r - 1) / q
+
+
+def parts(x: mp.mpf) -> None:
+    """x as a sum of three doubles."""
+    print("# pi in parts")
+    for _ in range(3):
+        print(f"    {float(x)!r},")
+        x -= mp.mpf(float(x))
 
 
 def even_cos(t: mp.mpf) -> mp.mpf:
@@ -65,6 +78,8 @@ if __name__ == "__main__":
     half_ln2 = mp.log(2) / 2 * mp.mpf("1.0001")
     largest = ((mp.sqrt(2) - 1) / (mp.sqrt(2) + 1)) ** 2
     show("sin(pi x)/x in x*x, |x| <= 1/2", odd_sin, 0, 0.25, 9)
+    show("(sin(r) - r)/r^3 in r*r, |r| <= pi/2", sin_rest, 0, 2.4675, 8)
+    parts(mp.pi)
     show("cos(pi x) in x*x, |x| <= 1/2", even_cos, 0, 0.25, 9)
     show("(exp(r) - 1 - r)/r^2, |r| <= ln(2)/2", exp_rest, -half_ln2, half_ln2, 10)
     show("2 (atanh(s) - s)/(s^3 ln 2) in s*s, |s| <= tan(pi/8)^2", log_rest, 0, largest, 8)

@@ -22,14 +22,15 @@ from montecarlo_brdf.compile import (
     linking,
     native,
     outline,
+    sines,
     twins,
 )
-from montecarlo_brdf.compile.bind import Bound
+from montecarlo_brdf.compile.bind import Bound, Called, is_strict
 from montecarlo_brdf.compile.cache import Fingerprint
 from montecarlo_brdf.compile.external import Kind
 
 #: The files that say how code is generated, as opposed to what it computes.
-SOURCES = (twins, compiler, linking, native, layout, external, outline)
+SOURCES = (twins, compiler, linking, native, layout, external, outline, sines)
 
 
 class Part(NamedTuple):
@@ -45,7 +46,7 @@ def module_of(template: Bound) -> Any:
     found = outline.outlined(template)
     if found is None:
         raise external.Unknown(template.function.__name__)
-    units = {call: _unit(found.unit(call), call.vectors) for call in found.calls}
+    units = {call: _unit(call, found.unit(call)) for call in found.calls}
     module = _bare(found.bare({call: unit.returns for call, unit in units.items()})).module.clone()
     for call, symbol in found.calls.items():
         unit = units[call].module.clone()
@@ -53,6 +54,8 @@ def module_of(template: Bound) -> Any:
         module.link_in(unit)
     for one, symbol in found.layouts.items():
         module.link_in(native.parsed(external.copier(one.places, symbol, found.room)))
+    if sines.needed(module):
+        module.link_in(native.parsed(sines.text()))
     linking.hide(module, native.ENTRY)
     return module
 
@@ -69,8 +72,15 @@ def _sources() -> tuple[bytes, ...]:
     return tuple(Path(str(m.__file__)).read_bytes() for m in SOURCES)
 
 
-def _unit(function: Bound, vectors: int) -> Part:
-    return _kept(function, lambda: compiler.unit_module(compiler.assembled(function), vectors))
+def _unit(call: Called, content: Bound) -> Part:
+    return _kept(content, lambda: _compiled(call, content))
+
+
+def _compiled(call: Called, content: Bound) -> tuple[Kind, Any]:
+    returns, module = compiler.unit_module(compiler.assembled(content), call.vectors)
+    if not is_strict(call.function):
+        sines.substitute(module)
+    return returns, module
 
 
 def _bare(template: Bound) -> Part:
