@@ -108,6 +108,7 @@ def _from_file(path: Path) -> types.ModuleType:
     package, root = _package(path.resolve().parent)
     for folder in {str(path.resolve().parent), str(root)}:  # first, whatever was loaded before
         sys.path[:] = [folder, *(other for other in sys.path if other != folder)]
+    _forget_namesakes(path.resolve().parent)
     module = types.ModuleType(path.stem)
     module.__file__ = str(path)
     if package:  # so that `from .util import x` works
@@ -130,6 +131,18 @@ def _package(folder: Path) -> tuple[str, Path]:
         names.insert(0, folder.name)
         folder = folder.parent
     return ".".join(names), folder
+
+
+_folders: set[str] = set()  # of files that were run
+
+
+def _forget_namesakes(folder: Path) -> None:
+    """A module beside another model must not stand for that of the same name beside this one."""
+    for name, module in list(sys.modules.items()):
+        beside = os.path.dirname(getattr(module, "__file__", None) or "")
+        if beside in _folders and beside != str(folder) and (folder / f"{name}.py").is_file():
+            del sys.modules[name]
+    _folders.add(str(folder))
 
 
 def _forget_namesake(package: str, root: Path) -> None:

@@ -78,3 +78,16 @@ def test_a_file_in_a_package_imports_its_neighbours(
     assert mb.load(one).f(up, up, ()) == 0.2
     assert mb.load(two).f(up, up, ()) == 0.4  # another project's package of the same name
     assert mb.furnace(mb.load(one), theta_o_deg=0.0, sampler="cosine").verdict == "pass"
+
+
+def test_models_of_two_folders_import_each_their_own_namesake(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "path", sys.path[:])
+    for name, value in (("a", 0.1), ("b", 0.2)):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "common.py").write_text(f"K = {value}\n")
+        model = "from common import K\n\n\ndef f(wo, wi, p):\n    return K\n"
+        (tmp_path / name / "m.py").write_text(model)
+    values = [mb.load(str(tmp_path / name / "m.py")).f(0, 0, 0) for name in "aba"]
+    assert values == [0.1, 0.2, 0.1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import inspect
 import io
 import itertools
 import math
@@ -247,11 +248,14 @@ def _value(text: str) -> Value:
 
 
 def models_of(spec: str) -> list[str]:
-    """'all', or names separated by commas."""
+    """'all', or names, patterns of files and folders, separated by commas."""
     from montecarlo_brdf import loading
+    from montecarlo_brdf.cli._specs import expanded
 
     found = listed(spec, "model")
-    return loading.names() if isinstance(found, str) else found
+    if isinstance(found, str):
+        return loading.names()
+    return [one for name in found for one in expanded(name)]
 
 
 def model_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[str]:
@@ -393,7 +397,7 @@ class Sampling(NamedTuple):
 
 def sampling_options(command: Command, allowed: Callable[[], Option] = tolerance) -> Command:
     """--points, --samples, --seed, --threads, --tolerance, as one argument `sampling`."""
-    return _gathered(command, "sampling", Sampling, [
+    return gathered(command, "sampling", Sampling, [
         click.option("--points", default="sobol", show_default=True, metavar="SET",
                      shell_complete=one_of(point_sets),
                      help="Point set: sobol, independent, stratified or lattice. "
@@ -410,7 +414,7 @@ def sampling_options(command: Command, allowed: Callable[[], Option] = tolerance
 def output_options(command: Command) -> Command:
     """--format, --export, --export-json, --inconclusive, --verbose, and the command's --plot if it
     has one, as one argument `output`."""
-    return _gathered(command, "output", Output, [
+    return gathered(command, "output", Output, [
         click.option("--format", "form", default=TEXT, show_default=True, metavar="FORM",
                      shell_complete=one_of(lambda: FORMATS),
                      help=f"What stdout gets: {', '.join(FORMATS)}. [--format junit]"),
@@ -431,14 +435,14 @@ def output_options(command: Command) -> Command:
     ])  # fmt: skip
 
 
-def _gathered(
-    command: Command, name: str, record: type[Sampling | Output], options: list[Option]
+def gathered(
+    command: Command, name: str, record: Callable[..., Any], options: list[Option]
 ) -> Command:
     """Some options as one argument of the command: a record with a field for each."""
 
     @functools.wraps(command)
     def call(**values: Any) -> int:
-        fields = {k: values.pop(k) for k in record._fields if k in values}
+        fields = {k: values.pop(k) for k in inspect.signature(record).parameters if k in values}
         return command(**values, **{name: record(**fields)})
 
     made: Command = call

@@ -7,27 +7,19 @@ editor may save twice within what a file system's clock tells apart.
 from __future__ import annotations
 
 import contextlib
-import functools
 import hashlib
-import importlib
-import linecache
 import os
-import sys
-import sysconfig
-import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from montecarlo_brdf import files
-from montecarlo_brdf.compile import folders
+from montecarlo_brdf import files, reading
 
 INTERVAL = 0.25  # seconds from one look at all files to the next
 SETTLED = 0.1  # seconds without a change: editors write in pieces and move files about
 RECENT = 2.0  # seconds: of a file that is younger the time tells nothing
 UNTOLD = 1000  # milliseconds after which one looks although no change was told
-WRITING = os.O_WRONLY | os.O_RDWR
 
 
 class Stamp(NamedTuple):
@@ -65,15 +57,14 @@ class Sources:
     def __init__(self) -> None:
         self.stamps: dict[Path, Stamp | None] = {}
         self._opened: dict[Path, Stamp | None] = {}
-        self._elsewhere = tuple(map(str, _libraries()))
 
     @contextlib.contextmanager
     def recorded(self) -> Iterator[None]:
         """Note which files are read in a block, and how they were before it; modules made of the
         files known so far are imported anew."""
-        self._forget_modules()
+        reading.forget_modules(self.stamps)
         self._opened = {path: stamp(path, known) for path, known in self.stamps.items()}
-        with _listening(self._hear):
+        with reading.opened(self._hear):
             try:
                 yield
             except BaseException:
@@ -88,10 +79,9 @@ class Sources:
                 return found
         return []
 
-    def _hear(self, path: str) -> None:
-        place = Path(os.path.realpath(path))
-        if place not in self._opened and not str(place).startswith(self._elsewhere):
-            self._opened[place] = stamp(place)
+    def _hear(self, path: Path) -> None:
+        if path not in self._opened:
+            self._opened[path] = stamp(path)
 
     def _keep(self, broken: bool) -> None:
         """Watch what was read; after an error also what was read before, and whether files come
@@ -120,57 +110,6 @@ class Sources:
             before = now
             time.sleep(SETTLED)
         return self._differing()
-
-    def _forget_modules(self) -> None:
-        for name, module in list(sys.modules.items()):
-            file = getattr(module, "__file__", None)
-            if file and Path(os.path.realpath(file)) in self.stamps:
-                del sys.modules[name]
-        importlib.invalidate_caches()
-        linecache.checkcache()
-
-
-def _libraries() -> Iterable[str | Path]:
-    """Where nobody edits models: Python, what is installed, this package, the cache."""
-    for name in ("stdlib", "platstdlib", "purelib", "platlib"):
-        yield os.path.realpath(sysconfig.get_path(name)) + os.sep
-    yield os.path.realpath(Path(__file__).parent.parent) + os.sep
-    yield from (os.path.realpath(folder) + os.sep for folder in folders.folders())
-    yield from ("/proc/", "/dev/", "/sys/")
-
-
-_heard: list[Callable[[str], None]] = []  # who listens; Python keeps a hook for ever
-_inside = threading.local()
-
-
-@contextlib.contextmanager
-def _listening(hear: Callable[[str], None]) -> Iterator[None]:
-    """Have `hear(path)` called before a file is opened to be read."""
-    _hook()
-    _heard.append(hear)
-    try:
-        yield
-    finally:
-        _heard.remove(hear)
-
-
-@functools.cache
-def _hook() -> None:
-    sys.addaudithook(_on_event)
-
-
-def _on_event(event: str, arguments: tuple[Any, ...]) -> None:
-    if event != "open" or not _heard or getattr(_inside, "hook", False):
-        return
-    path, _, flags = arguments
-    if not isinstance(path, str) or path.endswith(".pyc") or (flags or 0) & WRITING:
-        return
-    _inside.hook = True  # what is read here is no news
-    try:
-        for hear in _heard:
-            hear(path)
-    finally:
-        _inside.hook = False
 
 
 def _occasions(places: set[Path]) -> Iterator[None]:

@@ -11,6 +11,7 @@ import click
 #: what is not always installed, and what it serves
 EXTRAS = {
     "slangpy": "shaders as models", "watchfiles": "telling --watch of changes",
+    "distributed": "sweeps on a Dask cluster",
     "OpenEXR": "reading and writing .exr",
     "colour": "spectra and illuminants in scenes",
     "ml_dtypes": "bfloat16 in stress", "mpmath": "exact arithmetic in stress",

@@ -8,10 +8,10 @@ from typing import Any
 
 import click
 
-from montecarlo_brdf.cli import _options
+from montecarlo_brdf.cli import _options, _sweep
 from montecarlo_brdf.cli._options import TEXT, Read, finite, listed, models_of, parameter_sets
 from montecarlo_brdf.errors import ModelError, UserError
-from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.judge.finding import Command, Report
 
 EPILOG = """\b
 Examples:
@@ -47,6 +47,7 @@ Examples:
               help="Keep partial sums in FILE, every ten seconds and at Ctrl-C, and go on from "
               "them: for billions of samples. [--resume sums.json]")  # fmt: skip
 @_options.watch()
+@_sweep.options
 @_options.output_options
 @_options.plot(
     help="Albedo against angle with error bars and reference, as PNG, SVG or PDF. [--plot a.png]"
@@ -55,6 +56,7 @@ def command(
     spec: str, assignments: tuple[str, ...], theta_o: list[float], phi_o: float,
     sampler: str | list[str], target_error: float | None, method: str | None, resume: Path | None,
     watch: bool, sampling: _options.Sampling, output: _options.Output,
+    sweep: _sweep.Sweep,
 ) -> int:  # fmt: skip
     """How much of a constant light 1 does the surface reflect, and is that what theory says?
 
@@ -66,13 +68,18 @@ def command(
     if watch and resume:
         raise UserError("give --watch or --resume, not both: sums of an f before an edit are lost")
 
+    _sweep.refuse(sweep, watch=watch, resume=resume)
+    terms = dict(
+        theta_o_deg=theta_o, phi_o_deg=phi_o, sampler=sampler, target_error=target_error,
+        method=method, **sampling.keywords(),
+    )  # fmt: skip
+
     def answer(show: Callable[[Report], None]) -> int:
         with partial_sums(resume) as sums:
-            report = gather(
-                models_of(spec), assignments, output, theta_o_deg=theta_o, phi_o_deg=phi_o,
-                sampler=sampler, target_error=target_error, method=method, sums=sums,
-                **sampling.keywords(),
-            )  # fmt: skip
+            if sweep.wanted:
+                report = spread(models_of(spec), assignments, output, sweep, **terms)
+            else:
+                report = gather(models_of(spec), assignments, output, sums=sums, **terms)
         show(report)
         return _options.deliver(report, output)
 
@@ -85,7 +92,6 @@ def gather(
     """One report over all models. terms: the rest of what `verify.furnace` takes."""
     from montecarlo_brdf import loading
     from montecarlo_brdf.cli._terminal import progress
-    from montecarlo_brdf.judge.finding import Command
     from montecarlo_brdf.verify.furnace import furnace
     from montecarlo_brdf.verify.question import failed, merged, part_of
 
@@ -105,3 +111,21 @@ def gather(
                     raise
                 reports.append(failed(Command.FURNACE, model.name, error))
     return merged(reports)
+
+
+def spread(
+    specs: Sequence[str], assignments: Sequence[str], output: _options.Output,
+    sweep: _sweep.Sweep, threads: int | None, **terms: Any,
+) -> Report:  # fmt: skip
+    """The same by tasks that workers answer."""
+    from montecarlo_brdf import loading
+    from montecarlo_brdf.sweep.texts import Texts
+    from montecarlo_brdf.verify.supervision import Deadline
+
+    output.check()
+    texts, items, terms = Texts(), list[Any](), {**terms, "curve": output.draws()}
+    for spec in specs:
+        model = loading.load(spec)
+        sets = parameter_sets(model, assignments)
+        items += _sweep.of_sets(Command.FURNACE, model, sets, terms, texts)
+    return _sweep.swept(Command.FURNACE, items, texts, sweep, threads, Deadline())

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from montecarlo_brdf.cli import _options
+from montecarlo_brdf.cli import _options, _sweep
 from montecarlo_brdf.cli._options import TEXT, Read, finite, listed, models_of
 from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge import finding
@@ -44,6 +44,7 @@ Examples:
   brdf-check run --model my_ggx.py --against ggx --max-time 10
   brdf-check run --model my_brdf.py --watch
   brdf-check run --model all
+  brdf-check run --model 'brdfs/*.py' --executor processes:8 --results answers.jsonl
   brdf-check run                      (all that brdf-check.toml names)
 """
 
@@ -74,6 +75,7 @@ Examples:
               help="Tell what changed since an earlier report; exit with 0 if nothing got worse. "
               "[--baseline main.json]")  # fmt: skip
 @_options.watch()
+@_sweep.options
 @functools.partial(_options.sampling_options, allowed=_options.tolerances)
 @_options.output_options
 @_options.plot(help="How near every finding came to its tolerance, as PNG, SVG or PDF. "
@@ -82,7 +84,7 @@ def command(
     spec: str | None, assignments: tuple[str, ...], config: Path | None, names: str | list[str],
     theta_o: list[float], phi_o: float, against: str | None, max_time: float | None, effort: float,
     require_coverage: bool, baseline: Path | None, watch: bool, sampling: _options.Sampling,
-    output: _options.Output,
+    output: _options.Output, sweep: _sweep.Sweep,
 ) -> int:  # fmt: skip
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
@@ -102,6 +104,7 @@ def command(
         raise UserError("give --model or --config, not both: the file says what to check")
     if max_time is not None and not max_time > 0.0:
         raise UserError(f"max-time must be a positive number of seconds, not {max_time}")
+    _sweep.refuse(sweep, watch=watch)
     keywords = sampling.keywords()
     threads = keywords.pop("threads")
     keywords |= {**tolerated(keywords.pop("tolerance")), "effort": effort}
@@ -116,7 +119,10 @@ def command(
         policy = output.inconclusive or project.inconclusive
         output.check()
         limit = max_time or project.max_time or math.inf
-        report = gather(project.requests, threads, Deadline(limit), output.form == TEXT)
+        if sweep.wanted:
+            report = spread(project.requests, sweep, threads, Deadline(limit))
+        else:
+            report = gather(project.requests, threads, Deadline(limit), output.form == TEXT)
         report = covered(report) if require_coverage else report
         show(report)
         return finish(report, output._replace(inconclusive=policy), earlier)
@@ -198,6 +204,17 @@ def gather(
     if reports[-1].measured["interrupted"]:
         reports += [_not_begun(one) for one in requests[len(reports) :]]
     return merged(reports)
+
+
+def spread(
+    requests: Sequence[Request | Broken], sweep: _sweep.Sweep, threads: int | None, limit: Deadline
+) -> Report:
+    """The same by tasks that workers answer."""
+    from montecarlo_brdf.sweep.texts import Texts
+
+    texts = Texts()
+    items = [*_sweep.of_requests(requests, texts)]
+    return _sweep.swept(Command.RUN, items, texts, sweep, threads, limit)
 
 
 def covered(report: Report) -> Report:

@@ -38,7 +38,7 @@ def read_report(path: Path) -> Report:
         raise UserError(f"{path} has schema {found}; this version reads schema {SCHEMA}")
     try:
         command = Command(data.get("command", ""))
-        results = [_result(result) for result in data["results"]]
+        results = [result_of(result) for result in data["results"]]
         settings, measured = (dict(data.get(name, {})) for name in ("settings", "measured"))
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         sentence = f"{path} is not a report of brdf-check: its results are damaged"
@@ -48,7 +48,9 @@ def read_report(path: Path) -> Report:
     return Report(command, settings, results, measured, known)
 
 
-def _result(data: dict[str, Any]) -> Result:
+def result_of(data: dict[str, Any]) -> Result:
+    """The result that its plain data stand for. Raises KeyError, TypeError or ValueError if they
+    are something else."""
     known = _known(data, RESULT)
     known.pop("verdict", None)  # that of its findings
     return Result(**{**known, "findings": [_finding(f) for f in known["findings"]]})
