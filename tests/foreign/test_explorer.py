@@ -33,6 +33,8 @@ ALBEDOS: dict[str, tuple[float | None, ...]] = {
     "blinn": (0.124829, 0.124829, 0.124701, 0.117036),
     "disney": (0.453472, 0.453231, 0.473307, 0.584028),
 }  # fmt: skip
+#: of a file whose f grows to the horizon, what the quadrature says of its own error
+RESOLVED = {"edwards06": 1.4e-4}
 pytestmark = [
     stored.needs_wheel,
     pytest.mark.skipif(not FOLDER.is_dir(), reason="$BRDF_EXPLORER names no folder of .brdf files"),
@@ -47,7 +49,8 @@ def test_the_albedo_is_that_of_the_formula(name: str) -> None:
     for angle, due in zip(ANGLES, ALBEDOS[name], strict=True):
         if due is not None:
             found = _truth.deterministic(model, p, from_degrees(angle, 0.0), 0)
-            assert found.estimate.mean == pytest.approx(due, abs=1e-6 * max(1.0, due))
+            within = RESOLVED.get(name, 1e-6)
+            assert found.estimate.mean == pytest.approx(due, abs=within * max(1.0, due))
 
 
 def test_every_file_is_translated() -> None:
