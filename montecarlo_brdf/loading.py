@@ -18,17 +18,17 @@ from montecarlo_brdf import mixture
 from montecarlo_brdf.contract import Namespace, build
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.files import know_input
-from montecarlo_brdf.foreign import project, translation
+from montecarlo_brdf.foreign import c_model, project, translation
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.models import names as names
 
 #: suffixes of languages that no model is written in
-OTHERS = ("osl", "wgsl", "metal", "c", "cpp", "h", "cu")
+OTHERS = ("osl", "wgsl", "metal", "h", "cu")
 
 
 def is_path(spec: str) -> bool:
     """Whether a model is asked for by its file: Python, or a shader."""
-    return ".py" in spec or translation.is_shader(spec)
+    return ".py" in spec or translation.is_shader(spec) or c_model.is_c(spec)
 
 
 def load(spec: str, **picks: str) -> Model:
@@ -48,6 +48,8 @@ def load(spec: str, **picks: str) -> Model:
         namespace = _member(spec, vars(_from_file(Path(path + ".py"))), member)
     elif translation.is_shader(spec):
         return _shader(Path(spec), picks)
+    elif c_model.is_c(spec):
+        namespace = _c(spec)
     elif spec.endswith(".py"):
         namespace = vars(_from_file(Path(spec)))
         if not callable(namespace.get("f")):
@@ -57,7 +59,9 @@ def load(spec: str, **picks: str) -> Model:
     elif spec in names():
         namespace = vars(importlib.import_module(f"montecarlo_brdf.models.{spec}"))
     elif described := project.find(spec):
-        return _shader(described.path, picks, spec, described.said)
+        if not c_model.is_c(str(described.path)):
+            return _shader(described.path, picks, spec, described.said)
+        namespace = _c(str(described.path), described.said)
     else:
         raise UserError(_no_model(spec))
     model = build(spec, namespace, built_in=spec in names())
@@ -93,6 +97,15 @@ def _shader(
     if found.single:
         model = dataclasses.replace(model, single=functools.partial(_single, path, found.single))
     return model.variant(**picks) if picks else model
+
+
+def _c(spec: str, said: Sequence[tuple[str, str]] = ()) -> Namespace:
+    """A model in C or C++, or in a library that such became."""
+    path, _ = c_model.parts(spec)
+    if not os.path.isfile(path):
+        raise UserError(f"no model file {path}")
+    know_input(path)
+    return vars(c_model.module(spec, said))
 
 
 def _single(path: Path, text: str) -> Namespace:

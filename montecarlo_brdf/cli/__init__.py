@@ -26,6 +26,7 @@ from montecarlo_brdf.files import forget_inputs, is_input
 
 INTERNAL_ERROR = 70
 INTERRUPTED = 130
+GUARDED = "BRDF_CHECK_GUARDED"  # set where the process that watches is another one
 
 EPILOG = """\b
 Examples:
@@ -100,7 +101,8 @@ def main() -> NoReturn:
     if not os.environ.get("BRDF_CHECK_DEBUG"):  # what matters of NaN and infinity is in a verdict
         warnings.simplefilter("ignore", RuntimeWarning)
     os._exit = _ended_by_a_model  # type: ignore[assignment]
-    code = execute(sys.argv[1:])
+    guarded = _runs_foreign_code(sys.argv[1:]) and not os.environ.get(GUARDED)
+    code = (_guarded if guarded else execute)(sys.argv[1:])
     if os.environ.get("BRDF_CHECK_DEBUG"):  # profilers want to see the end
         sys.exit(code)
     _leave_at_once(code)
@@ -115,6 +117,30 @@ def _ended_by_a_model(code: int) -> NoReturn:
         _exit(code)
     _say(f"Error: the model ended the process by os._exit({code})", ModelError.exit_code)
     _exit(ModelError.exit_code)
+
+
+def _runs_foreign_code(arguments: list[str]) -> bool:
+    """Whether a model is machine code of its author's, which may end the process."""
+    from montecarlo_brdf.foreign import c_model
+
+    return any(c_model.is_c(argument.rpartition("=")[2]) for argument in arguments)
+
+
+def _guarded(arguments: list[str]) -> int:
+    """Run the command in a process of its own, of which a signal is told in a sentence."""
+    import subprocess
+
+    command = [sys.executable, "-m", "montecarlo_brdf", *arguments]
+    with subprocess.Popen(command, env={**os.environ, GUARDED: "1"}) as process:
+        while process.poll() is None:
+            with contextlib.suppress(KeyboardInterrupt):  # it hears of that itself
+                process.wait()
+    if process.returncode >= 0:
+        return process.returncode
+    import signal
+
+    name = signal.Signals(-process.returncode).name
+    return _say(f"Error: the model crashed with {name}", ModelError.exit_code)
 
 
 def _leave_at_once(code: int) -> NoReturn:

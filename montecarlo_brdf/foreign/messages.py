@@ -7,6 +7,9 @@ import re
 from montecarlo_brdf.foreign.complaint import Complaint
 
 RULES = (
+    re.compile(  # gcc, clang
+        r"^(?P<file>[^\n:]+):(?P<line>\d+):(?:\d+:)? (?:fatal )?error: (?P<text>.+)$", re.M
+    ),
     re.compile(r"^ERROR: (?P<file>[^\n]+?):(?P<line>\d+): (?P<text>.+)$", re.M),  # glslang
     re.compile(  # Slang
         r"^(?:fatal )?error(?:\[\w+\])?: (?P<text>.+)\n\s*--> (?P<file>.+?):(?P<line>\d+):\d+"
@@ -55,4 +58,8 @@ def _cleaned(text: str) -> str:
         return f"no file {name} to include"
     if OURS.search(text):
         return "it is neither a number nor a colour" if "colour" in text else "it is no direction"
+    if "bc_vec3" in text:
+        return "it is no number"
+    if "bc_w" in text or "is not a structure or union" in text:
+        return "it is no direction"
     return re.sub(r"^'(.*?)' : +", lambda m: f"'{m[1]}' " if m[1] else "", text)

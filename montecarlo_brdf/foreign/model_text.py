@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
-import keyword
 import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from montecarlo_brdf.foreign import entry, formula, parameter_sets, runtime
-from montecarlo_brdf.foreign.complaint import Complaint
-from montecarlo_brdf.foreign.description import Cosine, Description, Measure, Parameter, Type
+from montecarlo_brdf.foreign import entry, members, runtime
+from montecarlo_brdf.foreign.description import Cosine, Description, Measure
+from montecarlo_brdf.foreign.members import CHANNEL, about, field_name
 from montecarlo_brdf.foreign.numerals import Numerals
 from montecarlo_brdf.foreign.python import Source
 
 RUNTIME = "montecarlo_brdf.foreign.runtime"
-CHANNEL = "channel"  # the parameter that says which number of a colour f returns
 LONGEST_TUPLE = 64  # numbers; larger tables are arrays
 
 
@@ -39,10 +36,12 @@ class Version:
 
     def text(self) -> str:
         """The whole file."""
-        body = "\n\n".join([*self._tables(), *self._functions(), *self._members()])
+        said = members.members(self.said, self.coloured)
+        body = "\n\n".join([*self._tables(), *self._functions(), *said])
         known = sorted({*runtime.__all__} & {*re.findall(r"\w+", body)})
         imports = f"from {RUNTIME}{'_single' if self.numerals.single else ''} import "
-        head = [repr(self._doc()), "from typing import NamedTuple"]
+        doc = members.doc(f"{self.name}: a shader.", self.said)
+        head = [repr(doc), "from typing import NamedTuple"]
         if "math." in body:
             head.append("import math")
         if "array(" in body:
@@ -51,21 +50,7 @@ class Version:
             head.append("STRICT = True")
         if known:
             head.append(f"{imports}{', '.join(known)}")
-        return "\n".join(head) + f"\n\n\n{self._params()}\n\n{body}\n"
-
-    def _doc(self) -> str:
-        lines = [f"{k} = {e}" for k, e in _expressions(self.said)]
-        lines += [f"found: {one}" for one in self.said.found]
-        return "\n".join([f"{self.name}: a shader.", "", *lines])
-
-    def _params(self) -> str:
-        lines = [
-            f"    {field_name(k)}: {_annotation(p)} = {int(v) if _is_counted(p) else v!r}"
-            for p in self.said.parameters for k, v in p.fields().items()
-        ]  # fmt: skip
-        if self.coloured:
-            lines.append(f"    {CHANNEL}: int = (0.0, 1.0, 2.0)")
-        return "\n".join(["class Params(NamedTuple):", *(lines or ["    pass"])])
+        return "\n".join(head) + f"\n\n\n{members.params(self.said, self.coloured)}\n\n{body}\n"
 
     def _tables(self) -> Iterator[str]:
         for name, source in self.sources.items():
@@ -123,60 +108,6 @@ class Version:
         texts = [f"F({x})" for x in used] if self.numerals.single else used
         return f"{name}_shader({', '.join(texts)})"
 
-    def _members(self) -> Iterator[str]:
-        domain = {
-            field_name(k): p.ends for p in self.said.parameters if p.ends for k in p.fields()
-        }
-        if domain:
-            yield f"domain = {domain!r}"
-        fields = [field_name(k) for p in self.said.parameters for k in p.fields()]
-        if self.said.lobe:
-            kind, _, width = self.said.lobe.partition(":")
-            with about("lobe"):
-                yield f"lobe = ({kind.strip()!r}, lambda p: {formula.source(width, fields)})"
-        if self.said.albedo:
-            with about("albedo"):
-                value = formula.source(self.said.albedo, fields, ("mu",))
-            yield f"def albedo(mu, p):\n    return {value}"
-        yield from self._sets()
-        yield from (f"{name} = {value!r}" for name, value in self.said.members.items())
-
-    def _sets(self) -> Iterator[str]:
-        """Members that are parameter sets, which have a channel each if f is a colour."""
-        known = {p.name: [field_name(k) for k in p.fields()] for p in self.said.parameters}
-        known |= {k: [k] for fields in known.values() for k in fields}
-        channels = [{CHANNEL: float(k)} for k in range(3)] if self.coloured else [{}]
-        for key in ("verified", "lossless"):
-            text = getattr(self.said, key)
-            if text in ("true", "false"):
-                yield f"{key} = {text == 'true'}"
-            elif text:
-                with about(key):
-                    sets = [one | c for one in parameter_sets.every(text, known) for c in channels]
-                yield f"{key} = [{', '.join(f'Params(**{one!r})' for one in sets)}]"
-        if self.said.limits:
-            with about("limits"):
-                yield f"limits = {parameter_sets.limits(self.said.limits, known)!r}"
-
-
-def _is_counted(one: Parameter) -> bool:
-    return one.type in (Type.WHOLE, Type.SWITCH)
-
-
-def _annotation(one: Parameter) -> str:
-    """What a field of Params is declared as."""
-    return "int" if _is_counted(one) else "float"
-
-
-@contextlib.contextmanager
-def about(key: str) -> Iterator[None]:
-    """What is wrong meanwhile is said of a key of the description."""
-    try:
-        yield
-    except Complaint as error:
-        raise Complaint(f"key {key}: {error}") from None
-
-
 def _source(binary: bytes, name: str, numerals: Numerals) -> Source:
     """An entry as Python."""
     with about(name):
@@ -191,20 +122,3 @@ def _is_coloured(source: Source) -> bool:
 
 def _plain(text: str) -> str:
     return text.removeprefix("F(").rstrip(")") if text.startswith("F(") else text
-
-
-def _expressions(said: Description) -> Iterator[tuple[str, str]]:
-    for name in ("before", "f", "pdf", "sample", "weight"):
-        value = " ".join(getattr(said, name).split())
-        if value:
-            yield name, value
-    if said.cosine is Cosine.INCLUDED:
-        yield "cosine", said.cosine
-    if said.measure is Measure.PROJECTED:
-        yield "measure", said.measure
-
-
-def field_name(name: str) -> str:
-    """A name that Python allows for a field."""
-    name = name.lstrip("_") or "x"
-    return f"{name}_" if keyword.iskeyword(name) or name in ("count", "index", CHANNEL) else name

@@ -23,7 +23,7 @@ from montecarlo_brdf.foreign import (
     explorer,
     glslang,
     language,
-    model_text,
+    members,
     trial,
 )
 from montecarlo_brdf.foreign.complaint import Complaint
@@ -116,7 +116,7 @@ def answer(shader: Shader) -> dict[str, Any]:
 
 def _refuse_unused(shader: Shader, text: str) -> None:
     for one in shader.said.parameters:
-        if not any(f"p.{model_text.field_name(k)}" in text for k in one.fields()):
+        if not any(f"p.{members.field_name(k)}" in text for k in one.fields()):
             place = shader.said.places.get(f"param {one.name}", str(shader.path))
             raise Complaint(f"{place}: the parameter {one.name} is not used", placed=True)
 
@@ -145,8 +145,11 @@ def _told(error: Complaint, shader: Shader | None, path: str) -> str:
     return f"{place}, {error}" if place else error.told(path)
 
 
-def main() -> None:
-    """Answer the request on standard input."""
+def main(
+    opened: Callable[[Path, list[Statement]], Any] = opened,
+    answer: Callable[[Any], dict[str, Any]] = answer,
+) -> None:
+    """Answer the request on standard input: `opened` makes what `answer` is given."""
     request, shader = json.load(sys.stdin), None
     path, said = request["path"], [Statement(*one) for one in request["said"]]
     try:
@@ -156,7 +159,7 @@ def main() -> None:
         told = {"error": _told(error, shader, path)}
     except RecursionError:
         told = {"error": f"{path}: it is nested too deeply"}
-    print(json.dumps(told))
+    print(json.dumps(told), flush=True)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ SUFFIXES = (".glsl", ".frag", ".comp", ".vert", ".fs", ".hlsl", ".hlsli", ".slan
 #: the name under which a module has its own text
 TEXT = "__translation__"
 PATIENCE = 180.0  # seconds for everything
+CALLING = "calling "  # what a process says before it runs code that may end it
 
 
 class Translation(NamedTuple):
@@ -58,18 +59,27 @@ def translated(path: Path, said: Sequence[tuple[str, str]] = ()) -> Translation:
 
     Raises ModelError with one sentence.
     """
-    name = _name(path, repr(said))
+    known = answered("translate", path, said)
+    return Translation(known["double"], known["single"], known["found"])
+
+
+def answered(
+    worker: str, path: Path, said: Sequence[tuple[str, str]], *more: str
+) -> dict[str, Any]:
+    """What a module of this folder, run in a process of its own, makes of a file and of what is
+    said of it: kept until that, any file that was read, or `more` changes."""
+    name = _name(path, repr((said, *more)))
     kept = cache.read(name)
-    known = json.loads(kept) if kept else None
+    known: dict[str, Any] | None = json.loads(kept) if kept else None
     if known is None or not _is_current(known["files"]):
-        known = _asked(path, said)
+        known = _asked(worker, path, said)
         cache.write(name, json.dumps(known).encode())
     for file in known["files"]:
         know_input(Path(file))
     for sentence in known["found"]:
         for hear in listeners:
             hear(f"{path}: {sentence}")
-    return Translation(known["double"], known["single"], known["found"])
+    return known
 
 
 def _name(path: Path, said: str) -> str:
@@ -103,14 +113,14 @@ def _is_current(files: dict[str, str]) -> bool:
     return found == files
 
 
-def _asked(path: Path, said: Sequence[tuple[str, str]]) -> dict[str, Any]:
+def _asked(worker: str, path: Path, said: Sequence[tuple[str, str]]) -> dict[str, Any]:
     """The answer of a process of its own."""
-    if wheel.folder() is None:
+    if worker == "translate" and wheel.folder() is None:
         needed = f"it needs the package {wheel.PACKAGE}: pip install '{wheel.EXTRA}'"
         raise ModelError(Complaint(needed).told(str(path)))
     import subprocess  # slow to import, and seldom needed
 
-    command = [sys.executable, "-m", "montecarlo_brdf.foreign.translate"]
+    command = [sys.executable, "-m", f"montecarlo_brdf.foreign.{worker}"]
     request = json.dumps({"path": str(path), "said": said})
     try:
         done = subprocess.run(
@@ -121,18 +131,21 @@ def _asked(path: Path, said: Sequence[tuple[str, str]]) -> dict[str, Any]:
     lines = done.stdout.splitlines()
     answer = json.loads(lines[-1]) if lines and lines[-1].startswith("{") else None
     if answer is None:
-        raise ModelError(f"{path}: {_ended(done.returncode, done.stderr)}")
+        calling = [x for x in lines if x.startswith(CALLING)]
+        what = f"its {calling[-1].removeprefix(CALLING)}" if calling else "its compiler"
+        raise ModelError(f"{path}: {_ended(what, done.returncode, done.stderr)}")
     if "error" in answer:
         raise ModelError(answer["error"])
     return dict(answer)
 
 
-def _ended(code: int, told: str) -> str:
+def _ended(what: str, code: int, told: str) -> str:
     """In words, how a process ended that gave no answer."""
     if code < 0:
         import signal
 
         with contextlib.suppress(ValueError):
-            return f"its compiler crashed with {signal.Signals(-code).name}"
+            name, _, where = what.partition(" at ")
+            return f"{name} crashed with {signal.Signals(-code).name}{where and f' at {where}'}"
     last = told.strip().splitlines()[-1:] or [f"exit code {code}"]
     return f"its translation failed: {last[0][:200]}"

@@ -7,7 +7,7 @@ import random
 from collections.abc import Iterator
 from typing import Any
 
-from montecarlo_brdf.foreign.model_text import CHANNEL
+from montecarlo_brdf.foreign.members import CHANNEL
 
 WO, WI, U = (0.6, 0.0, 0.8), (-0.28, 0.45, 0.8480566018), (0.3, 0.6, 0.4)
 PLACES = 24
