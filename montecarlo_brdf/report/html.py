@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 TEMPLATES = Path(__file__).parent / "templates"
 #: commands with pictures of their own for each part
 CURVES = (Command.CONVERGE, Command.FURNACE, Command.RADIANCE, Command.STRESS)
+MOST_NAMED = 4  # models in the title
 MOST_ROWS = 200  # of a table: the worst of more
 MOST_DRAWN_FINDINGS = 400  # of a picture
 MOST_DRAWN = 40  # pictures of a page
@@ -38,7 +39,8 @@ def page(reports: Sequence[Report]) -> str:
     verdict = _whole(worst(r.verdict for r in reports))
     models = dict.fromkeys(r.model for report in reports for r in report.results if r.model)
     commands = dict.fromkeys(report.command for report in reports)
-    title = f"{', '.join(commands)}: {', '.join(models)}" if models else ", ".join(commands)
+    named = ", ".join(models) if len(models) <= MOST_NAMED else f"{len(models)} models"
+    title = ": ".join(filter(None, (", ".join(commands), named if models else "")))
     return filled(title, verdict, chapters)
 
 

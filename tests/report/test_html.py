@@ -226,6 +226,15 @@ def test_reports_of_other_schemas(schema: object, cli: Call, tmp_path: Path) -> 
         assert outcome.err.count("\n") == 1 and not outcome.out
 
 
+def test_a_title_has_room_for_some_names() -> None:
+    def title(count: int) -> str:
+        rows = [Result(f"model_{k}", {}, "furnace", many(1)) for k in range(count)]
+        return html.render(Report(Command.RUN, {}, rows)).split("<title>")[1].split("</title>")[0]
+
+    assert title(2).endswith("run: model_0, model_1") and title(9).endswith("run: 9 models")
+    assert html.render(Report(Command.RUN, {}, [])).count("brdf-check run<") == 1
+
+
 def never_run(lines: str, **where: str) -> Finding:
     return Finding("lines run", {**where, "lines": lines}, Verdict.KNOWN, value=3.0, stderr=0.0)
 
