@@ -9,6 +9,7 @@ from montecarlo_brdf.judge.finding import Result
 from montecarlo_brdf.report import text
 
 MOST_LINES = 2000  # of a source
+LINES_RUN = "lines run"  # the quantity of the check of coverage
 
 
 class Line(NamedTuple):
@@ -53,9 +54,6 @@ def source(results: Sequence[Result], files: Mapping[str, object]) -> Source | N
     ]
     followed = any(f.quantity == LINES_RUN for r in results for f in r.findings)
     return Source(where["file"], rows, max(0, len(lines) - MOST_LINES), followed)
-
-
-LINES_RUN = "lines run"  # the quantity of the check of coverage
 
 
 def _of_lines(where: Mapping[str, object]) -> bool:

@@ -11,7 +11,7 @@ from conftest import Outcome
 
 Command = Callable[..., Outcome]
 LINES = {
-    "run --model lambert --check furnace,energy,cover,pdf,sampling,radiance --effort 0.03": 3,
+    "run --model lambert --check energy,cover --effort 0.03": 3,
     "run --model black.py --effort 0.03": 3,
     "furnace --model ggx --theta-o 60 --sampler cosine": 3,
     "identities": 3,
