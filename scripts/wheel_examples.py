@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -31,7 +32,8 @@ BEFORE = (
     "--export run.json",
     "bench --model lambert --quick --export time.json",
 )
-SHELLS = (0, 1, 3)  # exit codes of an example that runs
+RAN = (0, 1, 3)  # exit codes of an example that runs
+ENDLESS, PATIENCE = "--watch", 30  # an example that a user ends, and after how long
 
 
 def installed(folder: Path) -> Path:
@@ -52,10 +54,17 @@ def run(program: Path, line: str, work: Path) -> subprocess.CompletedProcess[str
     unset = ("PYTHONPATH", "BRDF_CHECK_QUIET")
     there = {k: v for k, v in os.environ.items() if k not in unset}
     path = f"{program.parent}{os.pathsep}{there['PATH']}"
-    return subprocess.run(
-        line, shell=True, cwd=work, capture_output=True, encoding="utf-8",
+    process = subprocess.Popen(
+        f"exec {line}" if ENDLESS in line else line, shell=True, cwd=work,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
         env={"BRDF_CHECK_CACHE_DIR": str(program.parents[1] / "cache"), **there, "PATH": path},
     )  # fmt: skip
+    try:
+        out, err = process.communicate(timeout=PATIENCE if ENDLESS in line else None)
+    except subprocess.TimeoutExpired:
+        process.terminate()
+        out, err = process.communicate()
+    return subprocess.CompletedProcess(line, process.returncode, out, err)
 
 
 def prepared(program: Path, work: Path) -> None:
@@ -84,7 +93,7 @@ def main() -> int:
                 shutil.copytree(folder / "prepared", work)
             began = time.perf_counter()
             done = run(program, line, work)
-            right = done.returncode in SHELLS
+            right = done.returncode in (RAN if ENDLESS not in line else (-signal.SIGTERM,))
             failed += not right
             print(f"{'ok  ' if right else 'FAIL'} {done.returncode} "
                   f"{time.perf_counter() - began:6.1f} s  {line}", flush=True)  # fmt: skip

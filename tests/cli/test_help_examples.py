@@ -35,8 +35,8 @@ FILES = {
     "my_aniso.py": ANISO,
     "my_fit.py": GGX + "def albedo(cos_theta_o, p):\n    return 0.99\n",
 }
-#: takes minutes: all models
-LONG = ("--model all",)
+#: takes minutes, or never ends: scripts/wheel_examples.py runs these too
+LONG = ("--model all", "--watch")
 
 
 def examples(text: str) -> list[str]:
