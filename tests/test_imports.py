@@ -16,7 +16,7 @@ NAME = PACKAGE.name
 FLOW = (
     ("errors",),
     ("bits", "files", "special", "toml", "vectors"),
-    ("compile", "statistics"),
+    ("chi_squared", "compile", "statistics"),
     ("sampling",),
     ("contract", "counterpart", "foreign", "loading", "mixture", "model", "models", "reading"),
     ("arithmetic",),

@@ -19,6 +19,7 @@ from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.checks import _draws
 from montecarlo_brdf.checks._cells import Cells
+from montecarlo_brdf.chi_squared import largest_excess, upper_tail
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.claim import Claim, Fit, FitClaim, Skip
 from montecarlo_brdf.model import Property
@@ -125,8 +126,6 @@ def judged(counts: Array, probability: Array, level: float) -> Fit:
     chi2 of draws at distance d is noncentral with parameter N d^2: the upper bound is the distance
     under which so small a chi2 has probability `level`.
     """
-    from scipy.special import chdtrc, chndtrinc
-
     n = float(counts.sum())
     if probability[-1] * n < EXPECTED:
         if counts[-1] > SURPLUS + 10.0 * probability[-1] * n:
@@ -136,5 +135,5 @@ def judged(counts: Array, probability: Array, level: float) -> Fit:
     chi2 = float(np.sum((counts - used * probability) ** 2 / (used * probability)))
     dof = len(counts) - 1
     excess = max(chi2 - dof, 0.0)
-    upper = math.sqrt(float(chndtrinc(max(chi2, dof), dof, level)) / used)
-    return Fit(math.sqrt(excess / used), upper, float(chdtrc(dof, chi2)), int(n))
+    upper = math.sqrt(largest_excess(max(chi2, dof), dof, level) / used)
+    return Fit(math.sqrt(excess / used), upper, upper_tail(chi2, dof), int(n))
