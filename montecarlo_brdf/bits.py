@@ -47,7 +47,12 @@ def number_of(word: int) -> float:
 
 
 def double_at(address: float, index: int) -> float:
-    """The double `index` places after a memory address, which is whole and below 2^53."""
+    """The double `index` places after a memory address, which is whole and below 2^53.
+
+    Raises TypeError for an address in any other arithmetic, which would lead elsewhere.
+    """
+    if not isinstance(address, float):
+        raise TypeError("a table in memory is found by an address, which only a double holds")
     return float(ctypes.c_double.from_address(int(address) + 8 * index).value)
 
 

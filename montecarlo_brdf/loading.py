@@ -19,6 +19,7 @@ from montecarlo_brdf.contract import Namespace, build
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.files import know_input
 from montecarlo_brdf.foreign import c_model, project, translation
+from montecarlo_brdf.measured import merl
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.models import names as names
 
@@ -27,13 +28,14 @@ OTHERS = ("osl", "wgsl", "metal", "h", "cu")
 
 
 def is_path(spec: str) -> bool:
-    """Whether a model is asked for by its file: Python, or a shader."""
-    return ".py" in spec or translation.is_shader(spec) or c_model.is_c(spec)
+    """Whether a model is asked for by its file: Python, a shader, C, or what was measured."""
+    known = translation.is_shader(spec) or c_model.is_c(spec) or merl.is_measured(spec)
+    return ".py" in spec or known
 
 
 def load(spec: str, **picks: str) -> Model:
-    """The model `spec`: a built-in name, `my_brdf.py`, `my_brdf.py:name`, a shader `my.glsl`, or a
-    weighted sum of them, "0.6 lambert + 0.4 ggx".
+    """The model `spec`: a built-in name, `my_brdf.py`, `my_brdf.py:name`, a shader `my.glsl`, a
+    measured file `merl:my.binary`, or a weighted sum of them, "0.6 lambert + 0.4 ggx".
 
     spec: one of these. picks: one option per choice the model offers, e.g. norm="n+8".
     Raises UserError for an unknown name or a missing file, ModelError if the file does not load.
@@ -44,7 +46,9 @@ def load(spec: str, **picks: str) -> Model:
         model = mixture.mixture([(weight, load(name)) for weight, name in mixed], spec)
         return model.variant(**picks) if picks else model
     path, _, member = spec.partition(".py:")
-    if member:
+    if merl.is_measured(spec):
+        namespace = merl.namespace(spec)
+    elif member:
         namespace = _member(spec, vars(_from_file(Path(path + ".py"))), member)
     elif translation.is_shader(spec):
         return _shader(Path(spec), picks)
@@ -80,6 +84,8 @@ def function(spec: str) -> Callable[..., Any]:
 def _no_model(spec: str) -> str:
     """Why a name stands for no model."""
     suffix = Path(spec).suffix
+    if suffix == merl.SUFFIX and os.path.isfile(spec):
+        return f"{spec} is no model by itself: a measured file is named {merl.MARK}{spec}"
     if suffix and suffix[1:].isalpha() and (os.path.isfile(spec) or suffix[1:] in OTHERS):
         return f"{spec} is neither a Python file, with a function f(wo, wi, p), nor a shader"
     return unknown("model", spec, names()) + ", or give the path of a .py file or of a shader"

@@ -128,7 +128,7 @@ class Model:
     def identity(self) -> str:
         """The name without folders: what is drawn for a file does not depend on where it lies."""
         if not self.terms:
-            return self.name if self.built_in else re.split(r"[/\\]", self.name)[-1]
+            return self.name if self.built_in else re.split(r"[/\\]|^merl:", self.name)[-1]
         name = self.name
         for one in sorted((t.model for t in self.terms), key=lambda m: -len(m.name)):
             name = name.replace(one.name, one.identity)  # longest first: b/a/x.py holds a/x.py

@@ -18,7 +18,8 @@ FLOW = (
     ("bits", "files", "special", "toml", "vectors"),
     ("chi_squared", "compile", "statistics"),
     ("sampling",),
-    ("contract", "counterpart", "foreign", "loading", "mixture", "model", "models", "reading"),
+    ("contract", "counterpart", "foreign", "loading", "measured", "mixture", "model", "models",
+     "reading"),  # fmt: skip
     ("arithmetic",),
     ("estimate",),
     ("cases",),

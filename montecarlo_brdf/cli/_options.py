@@ -318,7 +318,8 @@ def parameter_names(ctx: click.Context, param: click.Parameter, incomplete: str)
 #: options that several commands have, some with a help of their own
 model = partial(
     click.option, "--model", "spec", metavar="MODEL", shell_complete=model_names,
-    help="A built-in model, my_brdf.py, my_brdf.py:name, or a shader. [--model lambert]",
+    help="A built-in model, my_brdf.py, my_brdf.py:name, a shader, or a measured "
+    "merl:my.binary. [--model lambert]",
 )  # fmt: skip
 parameters = partial(
     click.option, "-p", "--param", "assignments", multiple=True, metavar="NAME=VALUE",

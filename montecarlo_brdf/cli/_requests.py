@@ -20,6 +20,7 @@ from montecarlo_brdf.counterpart import counterpart
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.estimate.plan import Progress, check_theta
 from montecarlo_brdf.judge.finding import Policy, Report
+from montecarlo_brdf.measured import merl
 from montecarlo_brdf.model import Model
 from montecarlo_brdf.report.text import called
 from montecarlo_brdf.sampling.points import SETS
@@ -269,8 +270,10 @@ def _spec(table: Table, key: str) -> str:
     """A model's name, or its path, which starts at the file's folder."""
     spec = table.text_of(key)
     folder = table.file.parent
-    if loading.is_path(spec) and not Path(spec).is_absolute() and folder != Path():
-        return os.path.relpath(folder / spec)
+    mark = merl.MARK if merl.is_measured(spec) else ""
+    path = Path(spec.removeprefix(mark))
+    if loading.is_path(spec) and not path.is_absolute() and folder != Path():
+        return mark + os.path.relpath(folder / path)
     return spec
 
 
