@@ -18,6 +18,8 @@ ONCE = re.compile(r"[ \t]*#[ \t]*pragma[ \t]+once\b")
 #: a line with those that continue it
 LINE = re.compile(r"(?:[^\n]*\\\n)*[^\n]*\n?")
 QUOTING = (".js", ".ts")
+#: what a name may go without: `<common>` is a file of three.js; a first `/` is an engine's root
+ENDS = ("", ".glsl", ".glsl.js", ".glsl.ts")
 #: how deep files may include one another, and how much text may come of it
 DEEPEST, LARGEST = 64, 1 << 26
 
@@ -91,9 +93,10 @@ class Includes:
     def find(self, name: str, path: Path) -> Path | None:
         """A file beside the one that names it, or in one of the folders."""
         for folder in (path.parent, *self.folders):
-            for found in (folder / name, folder / name.lstrip("/")):  # an engine's root
-                if found.is_file():
-                    return found
+            for end in ENDS:
+                for found in (folder / f"{name}{end}", folder / f"{name.lstrip('/')}{end}"):
+                    if found.is_file():
+                        return found
         return None
 
 

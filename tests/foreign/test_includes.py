@@ -19,6 +19,12 @@ def resolved(folder: Path, **macros: str) -> str:
     return " ".join(x.strip() for x in lines if x.strip() and not x.strip().startswith("#"))
 
 
+def test_a_chunk_has_no_suffix(tmp_path: Path) -> None:
+    (tmp_path / "common.glsl.js").write_text("export default `\nfloat a;\n`;\n")
+    (tmp_path / "main.glsl").write_text("#include <common>\nfloat b;\n")
+    assert resolved(tmp_path) == "float a; float b;"
+
+
 def written(folder: Path, **files: str) -> Path:
     for name, text in files.items():
         path = folder / name.replace("__", "/")
