@@ -65,6 +65,10 @@ class Rung:
             raise ModelError(
                 f"{name} of model {self.model.name} leaves its precision: {error}"
             ) from error
+        except NotImplementedError as error:  # of a function of C
+            raise ModelError(
+                f"model {self.model.name} is machine code: it runs in its own precision alone"
+            ) from error
         except (TypeError, ValueError, AttributeError, IndexError, AssertionError) as error:
             text = " ".join(str(error).split())
             raise ModelError(

@@ -105,6 +105,12 @@ def test_no_compiler_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) ->
         c_compiler.made("", tmp_path / "a.c", [], plus=False)
 
 
+def test_other_precisions_are_refused() -> None:
+    model = mb.load(str(GGX))
+    with pytest.raises(mb.ModelError, match="machine code: it runs in its own precision alone"):
+        mb.stress(model, [model.parameters()], precisions=["float32"], quick=True)
+
+
 def test_a_crash_later_on_is_a_sentence(tmp_path: Path, process: Callable[..., Any]) -> None:
     path = tmp_path / "a.c"
     path.write_text(
