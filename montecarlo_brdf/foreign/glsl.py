@@ -47,6 +47,7 @@ NAMED = re.compile(
     r"(?P<members>\{[^}]*\})\s*(?P<name>\w+)(?P<array>\s*\[[^\]]*\])?\s*;"
 )
 OPAQUE = re.compile(r"[iu]?(?:sampler|image|texture)\w*|subpassInput\w*|atomic_uint")
+ENTRY = "bc_entry_"  # how the names of our functions begin
 MAKERS = """\
 vec3 bc_colour(float x) { return vec3(x); }
 vec3 bc_colour(vec3 x) { return x; }
@@ -85,16 +86,22 @@ class Program:
             *names, stub, f'#line 1 "{path}"', code, "#undef main", MAKERS,
         ])  # fmt: skip
 
-    def source(self, one: Entry) -> str:
-        """The program with an entry."""
+    def source(self, every: list[Entry]) -> str:
+        """The program with all entries, as functions that its main calls."""
+        calls = "".join(f" {ENTRY}{one.name}();" for one in every)
+        functions = "".join(map(self._function, every))
+        return f"{self._text}{functions}void main() {{{calls} }}\n"
+
+    def _function(self, one: Entry) -> str:
         said, first = self._said, entries.end(self._said.parameters)
         before = f'#line 1 "{KEY}before"\n{said.before}' if said.before else ""
         lines = [
-            "void main() {", *self._directions(one), *self._assignments(), "{", before,
+            f"void {ENTRY}{one.name}() {{", *self._directions(one), *self._assignments(), "{",
+            before,
             f'#line 1 "{KEY}{one.name}"', f"vec3 bc_result = {one.maker}({one.expression});",
             *(f"bc[{first + k}] = bc_result.{'xyz'[k]};" for k in range(3)), "}}",
         ]  # fmt: skip
-        return self._text + "\n".join(lines) + "\n"
+        return "\n".join(lines) + "\n"
 
     def _directions(self, one: Entry) -> list[str]:
         """The names that expressions use, but for those that a parameter takes."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from montecarlo_brdf.foreign import entry, glsl, glslang, hlsl, messages, slang
+from montecarlo_brdf.foreign import entry, entry_point, glsl, glslang, hlsl, messages, slang
 from montecarlo_brdf.foreign.description import Description, Language
 from montecarlo_brdf.foreign.entry import Entry
 
@@ -34,9 +34,10 @@ def binaries(
         for one in entry.entries(said):
             yield one.name, _by_slang(program.source(one), language, one, folders, files)
         return
-    glsl_program = glsl.Program(text, shown(path), said)
-    for one in entry.entries(said):
-        yield one.name, _by_glslang(glsl_program.source(one), path)
+    every = entry.entries(said)
+    together = _by_glslang(glsl.Program(text, shown(path), said).source(every), path)
+    for one in every:
+        yield one.name, entry_point.alone(together, f"{glsl.ENTRY}{one.name}")
 
 
 def macros(language: Language) -> dict[str, str]:
