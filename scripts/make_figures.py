@@ -64,8 +64,10 @@ def time_against_error(path: Path) -> None:
 #: from the top: name, what it says below, what it knows
 LAYERS = (
     ("cli", "one file per command", "options, exit codes"),
+    ("sweep", "one question of many models, by many processes", "tasks"),
     ("verify", "a question becomes a Report", "settings, parameter sets"),
-    ("checks, scene, stability", "yield claims, decide nothing", "physics"),
+    ("scene, stability, table", "questions of their own", "skies, precisions, cells"),
+    ("checks", "yield claims, decide nothing", "physics"),
     ("judge", "claims become findings", "levels, looks, confirmation"),
     ("cases", "models, directions, parameters to look at", "search"),
     ("estimate", "quantity x direction: a number with its error bar", "statistics"),

@@ -69,6 +69,14 @@ def test_the_page_of_pictures_is_the_script_s(scripts: Any) -> None:
     assert all((DOCS / path).is_file() for path in used)
 
 
+def test_the_picture_of_the_house_has_every_floor(scripts: Any) -> None:
+    """If this fails: a row of LAYERS, then python scripts/make_figures.py docs/figures house"""
+    figures = scripts("make_figures")
+    drawn = {name for row in (*figures.LAYERS, *figures.ASIDE) for name in row[0].split(", ")}
+    package = ROOT / "montecarlo_brdf"
+    assert {path.parent.name for path in package.glob("*/__init__.py")} - drawn == set()
+
+
 def broken(folder: Path) -> list[str]:
     """Links within a site that lead nowhere."""
     pages = {p: p.read_text(encoding="utf-8") for p in folder.rglob("*.html")}
