@@ -87,7 +87,7 @@ def _panels(found: Sequence[Cell]) -> list[Panel]:
               _shaded(found, lambda c: c.found / c.area / most, "dense")),
         Panel("pdf", "how densely they should, in the same shades",
               _shaded(found, lambda c: c.expected / c.area / most, "dense")),
-        Panel("difference", f"red: too many, blue: too few, to {end:.2g} standard deviations",
+        Panel("difference", f"red: too many, blue: too few, to {end:.0f} standard deviations",
               _shaded(found, lambda c: c.residual / end, "more", "less")),
     ]  # fmt: skip
 
