@@ -67,6 +67,7 @@ LAYERS = (
     ("sweep", "one question of many models, by many processes", "tasks"),
     ("verify", "a question becomes a Report", "settings, parameter sets"),
     ("scene, stability, table", "questions of their own", "skies, precisions, cells"),
+    ("diagnosis", "what of a refuted model is wrong, tested by repair", "causes"),
     ("checks", "yield claims, decide nothing", "physics"),
     ("judge", "claims become findings", "levels, looks, confirmation"),
     ("cases", "models, directions, parameters to look at", "search"),
