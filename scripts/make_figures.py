@@ -74,7 +74,7 @@ LAYERS = (
     ("estimate", "quantity x direction: a number with its error bar", "statistics"),
     ("arithmetic", "plain functions on arrays: any precision, and what turns", "rounding"),
     ("model, models", "f, sample, pdf and what is declared", "formulas"),
-    ("foreign", "a shader becomes the text of a model file", "GLSL, HLSL, Slang"),
+    ("foreign, measured", "shaders, C and measured files become models", "GLSL, C, MERL"),
     ("sampling", "points of the cube, ways to a direction", "hashes, maps"),
     ("compile", "templates with holes become machine code", "numba, llvmlite"),
 )
