@@ -6,6 +6,7 @@ with the examples; with names only these pictures are drawn anew.
 
 from __future__ import annotations
 
+import json
 import os
 import shlex
 import subprocess
@@ -113,7 +114,9 @@ The same on a narrow screen:
 ![The page of a scene](figures/page_scene_1400.png)
 
 Taken by `python scripts/screenshots.py`.
+
 """
+RESULTS = ROOT / "scripts" / "results" / "pages.json"
 
 
 def draw(name: str, folder: Path) -> None:
@@ -136,7 +139,15 @@ def page() -> str:
     for name, one in SHOWN.items():
         parts.append(f"## {one.title}\n\n{one.words}\n\n```sh\nbrdf-check {one.command}\n```\n\n"
                      f"![{one.title}](figures/shown_{name}.png)\n")  # fmt: skip
-    return "\n".join([*parts, PAGES])
+    return "\n".join([*parts, PAGES + sizes()])
+
+
+def sizes() -> str:
+    """How large pages are, as measured."""
+    rows = ["| page of | MB | seconds of the processor to show it |", "|---|---|---|"]
+    for one in json.loads(RESULTS.read_text(encoding="utf-8"))["pages"]:
+        rows.append(f"| `{one['command']}` | {one['bytes'] / 1e6:.2f} | {one['seconds']:g} |")
+    return "\n".join([*rows, "", "Measured by `python scripts/page_sizes.py`.", ""])
 
 
 def main() -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from montecarlo_brdf import references
-from montecarlo_brdf.compile import compiler, kernel
+from montecarlo_brdf.compile import compiler
 from montecarlo_brdf.compile.bind import bound
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model
@@ -74,7 +74,7 @@ def integrand(name: str) -> Integrand:
     work = next(w for w in WORKLOADS if w.name == name)
     model, wo = work.model, from_degrees(work.theta_o_deg)
     p = model.prepared(work.p)
-    f = kernel.specialiser().bind(bound(model.f))
+    f = compiler.specialiser().bind(bound(model.f))
 
     def at(theta: float, phi: float) -> float:
         s, c = math.sin(theta), math.cos(theta)
