@@ -4,10 +4,10 @@ names that are linked later, so that the rest is compiled once for all models.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from montecarlo_brdf.compile.bind import Bound, Called, Function, bound, hole
+from montecarlo_brdf.compile.bind import Bound, Called, Function, bound, hole, references, uses
 from montecarlo_brdf.compile.external import Addresses, External, Kind
 from montecarlo_brdf.compile.layout import Layout, Unpack, following, size_of
 
@@ -58,7 +58,8 @@ class Outline(NamedTuple):
         if isinstance(value, Bound):
             return self._bare(value, returns)
         if isinstance(value, Called):
-            return External(self.calls[value], value.vectors, returns[value])
+            used = value in self.calls
+            return External(self.calls[value], value.vectors, returns[value]) if used else None
         if isinstance(value, Unpack):
             layout = value.layout
             return Addresses(self.layouts[layout], self.room, len(layout.places))
@@ -67,7 +68,7 @@ class Outline(NamedTuple):
 
 def outlined(template: Bound) -> Outline | None:
     """What of a template belongs to a model; None if it cannot be told apart."""
-    values = list(_values(template))
+    values = list(_values(template.function, dict(template.names)))
     calls = dict.fromkeys(v for v in values if isinstance(v, Called))
     layouts = dict.fromkeys(v.layout for v in values if isinstance(v, Unpack))
     shapes = {layout.shape for layout in layouts}
@@ -80,9 +81,11 @@ def outlined(template: Bound) -> Outline | None:
     )
 
 
-def _values(template: Bound) -> Iterator[object]:
-    """All that fills holes, in an order that is the same in every process."""
-    for _, value in sorted(template.names, key=lambda pair: pair[0]):
+def _values(function: Function, names: Mapping[str, object]) -> Iterator[object]:
+    """All that a template uses, in an order that is the same in every process."""
+    for value in references(function, names).values():
         yield value
         if isinstance(value, Bound):
-            yield from _values(value)
+            yield from _values(value.function, dict(value.names))
+        elif uses(value, names):
+            yield from _values(value, names)

@@ -14,6 +14,8 @@ import pytest
 import montecarlo_brdf as mb
 from montecarlo_brdf.compile import bitcode, cache, compiler, folders, kernel
 from montecarlo_brdf.compile.bind import Bound
+from montecarlo_brdf.compile.layout import pack
+from montecarlo_brdf.estimate import moments
 from montecarlo_brdf.estimate.places import Pointwise
 from montecarlo_brdf.estimate.quantity import Quantity, probe_of, second_moment
 from montecarlo_brdf.estimate.samplers import functions_of, integrand
@@ -100,6 +102,18 @@ def test_templates_are_compiled_once_for_all_models_and_functions_once_each(
     edited = of(user_file(ONE.replace("p.k * wi", "2.0 * p.k * wi"), "one.py"))
     assert edited.f(WO, WI) == pytest.approx(0.16) and edited.pdf(WO, WI) == pytest.approx(0.24)
     assert made[4:] == ["f"]
+
+
+def test_functions_that_a_kernel_does_not_call_are_not_compiled(
+    made: Made, user_file: Write
+) -> None:
+    """The integrand of f by cosine sampling is bound to all functions of the model."""
+    sampler = "\ndef sample(wo, u, p):\n    return hash(object())\n"
+    model = mb.load(str(user_file(ONE + sampler)))
+    layout, _ = pack([model.parameters()], moments.QUERY)
+    mean = integrand(model, Quantity.ALBEDO, Sampler.COSINE)
+    assert moments.kernel_of(model.name, "sobol", [mean], layout).entry
+    assert made == ["f", "moments"]
 
 
 def test_a_part_that_llvm_cannot_read_is_made_again(
