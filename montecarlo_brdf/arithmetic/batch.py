@@ -171,6 +171,21 @@ for _method, _name in COMPARISONS.items():
     _define(Whole, _method, _name)
 
 
+class Table:
+    """A read-only table whose entries are numbers of one precision."""
+
+    def __init__(self, values: Array, arithmetic: Arithmetic) -> None:
+        self.values, self.arithmetic = values, arithmetic
+        self.shape = np.shape(values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __getitem__(self, place: Any) -> Any:
+        found = self.values[place]
+        return Table(found, self.arithmetic) if np.ndim(found) else Batch(found, self.arithmetic)
+
+
 def over_points(columns: Sequence[Any], call: Callable[..., Any], arithmetic: Arithmetic) -> Any:
     """call(*batches) at every point, as an array (numbers per result, points).
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from montecarlo_brdf import bits, special
-from montecarlo_brdf.arithmetic.batch import Batch, Whole
+from montecarlo_brdf.arithmetic.batch import Batch, Table, Whole
 from montecarlo_brdf.arithmetic.types import Arithmetic
 from montecarlo_brdf.compile.bind import Specialiser
 
@@ -74,16 +74,20 @@ def chosen(order: str) -> Callable[..., Any]:
 
 
 class Rebound(Specialiser):
-    """Binds everything a function reaches to one type, and `max` and `min` too."""
+    """Binds everything a function reaches to one type: tables, and `max` and `min` too."""
 
     def __init__(self, arithmetic: Arithmetic) -> None:
         super().__init__(lambda function: function, twins(arithmetic))
+        self._arithmetic = arithmetic
 
     def clone(self, function: Callable[..., Any], bound: Mapping[str, Any]) -> types.FunctionType:
         """`function` with every global name it uses replaced by its counterpart."""
-        made = super().clone(function, bound)
+        made, one = super().clone(function, bound), self._arithmetic
         made.__globals__.setdefault("max", chosen("gt"))
         made.__globals__.setdefault("min", chosen("lt"))
+        for name, value in made.__globals__.items():
+            if isinstance(value, np.ndarray) and value.dtype == np.float64 != one.dtype:
+                made.__globals__[name] = Table(one.array(value), one)
         return made
 
 

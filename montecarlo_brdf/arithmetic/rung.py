@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from montecarlo_brdf.arithmetic.batch import Batch, Mixed, Widened, over_points
+from montecarlo_brdf.arithmetic.batch import Batch, Mixed, Table, Widened, over_points
 from montecarlo_brdf.arithmetic.elementary import Rebound
 from montecarlo_brdf.arithmetic.types import Arithmetic, Array
 from montecarlo_brdf.errors import ModelError
@@ -104,21 +104,6 @@ class Rung:
 def _in_double(prepare: Callable[[Any], Any], p: NamedTuple) -> Any:
     """prepare(p), which may take long, once for all precisions."""
     return prepare(p)
-
-
-class Table:
-    """A read-only table whose entries are numbers of one precision."""
-
-    def __init__(self, values: Array, arithmetic: Arithmetic) -> None:
-        self.values, self.arithmetic = values, arithmetic
-        self.shape = np.shape(values)
-
-    def __len__(self) -> int:
-        return len(self.values)
-
-    def __getitem__(self, place: Any) -> Any:
-        found = self.values[place]
-        return Table(found, self.arithmetic) if np.ndim(found) else Batch(found, self.arithmetic)
 
 
 def _in(arithmetic: Arithmetic, value: ArrayLike) -> Any:

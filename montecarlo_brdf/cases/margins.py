@@ -136,8 +136,8 @@ class Crossings:
         if self.case.model.prepare is None:
             return self.case.one._make(at.table.T)
         sets = rows_of(self.case.model, self.case.one, at.table)
-        kind = sets.shape[0] if sets.shape else tuple
-        return kind._make(sets.numbers.T)  # type: ignore[attr-defined]  # nested ones raise
+        kind: Any = sets.shape[0] if sets.shape else tuple
+        return kind._make(sets.numbers.T)  # nested ones and tables raise
 
     def searched(
         self, at: Points, margins: Margins, sites: Sequence[Site]

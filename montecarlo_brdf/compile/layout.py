@@ -6,9 +6,11 @@ the compiler then sees the same value once and computes what depends on it once.
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from montecarlo_brdf.compile.bind import Instruction
 
@@ -22,10 +24,32 @@ if TYPE_CHECKING:
 
     Args = Sequence[Value]
 
-#: The last argument of a model's functions: a number, or a tuple of such, often a NamedTuple.
-Numbers = float | tuple["Numbers", ...]
-#: None for a number, (type, shapes of the fields) for a tuple.
-Shape = tuple[type, tuple["Shape", ...]] | None
+    from numpy.typing import NDArray
+
+#: The last argument of a model's functions: a number, an array of numbers, or a tuple of such, as
+#: a NamedTuple.
+Numbers: TypeAlias = "float | NDArray[Any] | tuple[Numbers, ...]"
+#: numbers of a plain tuple from which on it is looked up as an array is: else every single one of
+#: them would be code
+LONG = 64
+
+
+DOUBLE = 8  # bytes
+
+
+class Grid(NamedTuple):
+    """The shape of an array."""
+
+    sides: tuple[int, ...]
+
+    @property
+    def size(self) -> int:
+        """How many numbers it has."""
+        return math.prod(self.sides)
+
+
+#: None for a number, a Grid for an array, (type, shapes of the fields) for a tuple.
+Shape = Grid | tuple[type, tuple["Shape", ...]] | None
 
 
 class Layout(NamedTuple):
@@ -39,26 +63,45 @@ class Layout(NamedTuple):
         return _described(self.shape), self.places
 
 
-def shape_of(value: Numbers) -> Shape:
-    """None for a number, (type, shapes of the fields) for a NamedTuple or tuple."""
+def shape_of(value: Any) -> Shape:
+    """None for a number, a Grid for an array, (type, shapes of the fields) for a NamedTuple or
+    tuple."""
+    if _is_long(value):
+        return Grid((len(value),))
     if isinstance(value, tuple):
         return type(value), tuple(shape_of(v) for v in value)
+    if sides := getattr(value, "shape", ()):
+        return Grid(tuple(sides))
     float(value)
     return None
 
 
+def _is_long(value: Any) -> bool:
+    """Whether it is a plain tuple of many numbers."""
+    return type(value) is tuple and len(value) > LONG and set(map(type, value)) <= {float, int}
+
+
 def numbers_of(value: Numbers) -> Iterator[float]:
     """All numbers of a nested tuple in order."""
-    if isinstance(value, tuple):
+    return itertools.chain.from_iterable(_leaves(value))
+
+
+def _leaves(value: Any) -> Iterator[Sequence[float]]:
+    """Numbers that must stand side by side: all of an array, each of another one alone."""
+    if _is_long(value):
+        yield tuple(map(float, value))
+    elif isinstance(value, tuple):
         for field in value:
-            yield from numbers_of(field)
+            yield from _leaves(field)
+    elif getattr(value, "shape", ()):
+        yield tuple(map(float, value.ravel()))
     else:
-        yield float(value)
+        yield (float(value),)
 
 
 def _described(shape: Shape) -> object:
-    if shape is None:
-        return None
+    if shape is None or isinstance(shape, Grid):
+        return shape and shape.sides
     kind, fields = shape
     return kind.__name__, getattr(kind, "_fields", ()), tuple(map(_described, fields))
 
@@ -67,12 +110,13 @@ def pack(channels: Sequence[Numbers], first: int) -> tuple[Layout, list[float]]:
     """Layout and numbers of K parameter sets, the numbers starting at place `first`."""
     numbers: list[float] = []
     places: list[list[int]] = [[] for _ in channels]
-    for column in zip(*(numbers_of(p) for p in channels), strict=True):
+    for column in zip(*map(_leaves, channels), strict=True):
         shared = len(set(column)) == 1
-        for k, value in enumerate(column):
+        for k, leaf in enumerate(column):
             if k == 0 or not shared:
-                numbers.append(value)
-            places[k].append(first + len(numbers) - 1)
+                numbers += leaf
+            end = first + len(numbers)
+            places[k] += range(end - len(leaf), end)
     return Layout(shape_of(channels[0]), tuple(map(tuple, places))), numbers
 
 
@@ -83,6 +127,8 @@ def following(shape: Shape, first: int) -> Layout:
 
 def size_of(shape: Shape) -> int:
     """How many numbers a value of this shape has."""
+    if isinstance(shape, Grid):
+        return shape.size
     return 1 if shape is None else sum(map(size_of, shape[1]))
 
 
@@ -115,6 +161,9 @@ class Unpack(Instruction):
                 def made(shape: Shape, places: Iterator[int]) -> Value:
                     if shape is None:
                         return number(next(places))
+                    if isinstance(shape, Grid):
+                        first, *_ = itertools.islice(places, shape.size)
+                        return _array(context, builder, args[0], first, shape)
                     fields = [made(s, places) for s in shape[1]]
                     return context.make_tuple(builder, _numba_type(shape), fields)
 
@@ -126,6 +175,24 @@ class Unpack(Instruction):
         return unpack
 
 
+def _array(context: Context, builder: Builder, reals: Value, first: int, grid: Grid) -> Value:
+    """An array of the numbers from a place on, without a copy."""
+    import numba
+    from numba.np import arrayobj
+
+    def constant(k: int) -> Value:
+        return context.get_constant(numba.types.intp, k)
+
+    array = arrayobj.make_array(_numba_type(grid))(context, builder)
+    data = builder.bitcast(builder.gep(reals, [constant(first)]), array.data.type)
+    strides = [DOUBLE * math.prod(grid.sides[k + 1 :]) for k in range(len(grid.sides))]
+    arrayobj.populate_array(
+        array, data=data, shape=[constant(n) for n in grid.sides],
+        strides=[constant(n) for n in strides], itemsize=constant(DOUBLE), meminfo=None,
+    )  # fmt: skip
+    return array._getvalue()
+
+
 def _numba_type(shape: Shape) -> Type:
     """The numba type of a shape; a tuple of equal types is a uniform one, as numba would type
     it."""
@@ -133,6 +200,8 @@ def _numba_type(shape: Shape) -> Type:
 
     if shape is None:
         return numba.float64
+    if isinstance(shape, Grid):
+        return numba.types.Array(numba.float64, len(shape.sides), "C", readonly=True)
     kind, fields = shape[0], [_numba_type(s) for s in shape[1]]
     uniform = bool(fields) and all(t == fields[0] for t in fields)
     if kind is tuple:

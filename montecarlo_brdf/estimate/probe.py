@@ -27,7 +27,7 @@ def check(model: Model, p: ParameterSet) -> None:
     for one in channels(p):
         ready = called(model, "prepare", model.prepared, one)
         if model.prepare and not _is_prepared(ready):
-            must = f"a NamedTuple of numbers and tuples of numbers, not {_shown(ready)}"
+            must = f"a NamedTuple of numbers, and of tuples and arrays of such, not {_shown(ready)}"
             raise ModelError(f"prepare of model {model.name} must return {must}")
         for wo in DIRECTIONS:
             for wi in DIRECTIONS:
@@ -67,7 +67,13 @@ def evaluated(model: Model, member: str, wo: Vec, other: Vec, ready: Prepared) -
 def _is_prepared(value: object, nested: bool = False) -> bool:
     if isinstance(value, tuple):
         return all(_is_prepared(v, nested=True) for v in value)
-    return nested and isinstance(value, numbers.Real)
+    return nested and (isinstance(value, numbers.Real) or _is_array(value))
+
+
+def _is_array(value: object) -> bool:
+    """Whether it is a NumPy array of real numbers."""
+    kind = getattr(value, "dtype", None)
+    return kind is not None and kind.kind in "fiu" and getattr(value, "size", 0) > 0
 
 
 def _drawn(
