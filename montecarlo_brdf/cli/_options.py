@@ -128,6 +128,12 @@ def listed(text: str, what: str) -> str | list[str]:
     return text if text == "all" else [name.strip() for name in text.split(",")]
 
 
+def together(parts: Sequence[str | list[str]]) -> tuple[str, ...] | None:
+    """The names of an option that was given several times, each once; None for 'all' alone."""
+    names = [n for part in parts for n in ([part] if isinstance(part, str) else part)]
+    return None if names == ["all"] else tuple(dict.fromkeys(names))
+
+
 class Read(click.ParamType):  # type: ignore[type-arg]  # generic only from click 8.4 on
     """What a function makes of a text; its range is checked where it is used.
 

@@ -34,7 +34,7 @@ COVERAGE = "coverage"  # the check that tells which lines were not run
 #: options that stand above a project's file if they are given
 ABOVE = {"samples", "points", "tolerance", "seed", "effort"}
 #: options that only make sense with --model
-LOCAL = {"assignments": "-p", "names": "--check"}
+LOCAL = {"assignments": "-p", "named": "--check"}
 LOCAL |= {"theta_o": "--theta-o", "phi_o": "--phi-o", "against": "--against"}
 
 EPILOG = """\b
@@ -55,9 +55,9 @@ Examples:
 @click.option("--config", type=_options.FILE, metavar="FILE",
               help="Without --model: what to check, instead of the nearest brdf-check.toml or "
               "[tool.brdf-check] of a pyproject.toml. [--config ci/brdf-check.toml]")  # fmt: skip
-@click.option("--check", "names", type=Read(listed), default="all", show_default=True,
-              shell_complete=_options.one_of(_options.check_names),
-              metavar="NAMES", help="Which checks, separated by commas. [--check energy,pdf]")
+@click.option("--check", "named", type=Read(listed), default=["all"], show_default=True,
+              multiple=True, shell_complete=_options.one_of(_options.check_names), metavar="NAMES",
+              help="Which checks, separated by commas or given again. [--check energy,pdf]")
 @_options.theta_o(default="0,45,80",
                   help="Angles of the viewer in [0, 90) for checks that look at some. "
                   "[--theta-o 0:85:6]")  # fmt: skip
@@ -81,10 +81,10 @@ Examples:
 @_options.plot(help="How near every finding came to its tolerance, as PNG, SVG or PDF. "
                "[--plot run.png]")  # fmt: skip
 def command(
-    spec: str | None, assignments: tuple[str, ...], config: Path | None, names: str | list[str],
-    theta_o: list[float], phi_o: float, against: str | None, max_time: float | None, effort: float,
-    require_coverage: bool, baseline: Path | None, watch: bool, sampling: _options.Sampling,
-    output: _options.Output, sweep: _sweep.Sweep,
+    spec: str | None, assignments: tuple[str, ...], config: Path | None,
+    named: Sequence[str | list[str]], theta_o: list[float], phi_o: float, against: str | None,
+    max_time: float | None, effort: float, require_coverage: bool, baseline: Path | None,
+    watch: bool, sampling: _options.Sampling, output: _options.Output, sweep: _sweep.Sweep,
 ) -> int:  # fmt: skip
     """All checks, or those named, with the worst finding of each, its likely cause and a command
     that reproduces it. Parameters without -p are searched over their range for the worst case.
@@ -105,14 +105,14 @@ def command(
     if max_time is not None and not max_time > 0.0:
         raise UserError(f"max-time must be a positive number of seconds, not {max_time}")
     _sweep.refuse(sweep, watch=watch)
+    names = _options.together(named)
     keywords = sampling.keywords()
     threads = keywords.pop("threads")
     keywords |= {**tolerated(keywords.pop("tolerance")), "effort": effort}
 
     def answer(show: Callable[[Report], None]) -> int:
         if spec:
-            chosen = None if isinstance(names, str) else tuple(names)
-            terms = Terms(chosen, theta_o, phi_o, against, **keywords)
+            terms = Terms(names, theta_o, phi_o, against, **keywords)
             project = Project(asked_models(models_of(spec), assignments, terms), None, None)
         else:
             project = asked_project(config, keywords)

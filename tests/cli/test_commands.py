@@ -240,3 +240,11 @@ def test_main_ends_the_process_with_the_code(process: Command) -> None:
 def test_closed_streams_are_no_error(closed: str) -> None:
     command = f"{shlex.quote(sys.executable)} -m montecarlo_brdf models {closed}"
     assert subprocess.run(["sh", "-c", command], capture_output=True).returncode == 0
+
+
+def test_checks_may_be_named_one_by_one(cli: Command) -> None:
+    line = ("run", "--model", "lambert", "--effort", 0.01, "--check", "isotropy,positivity")
+    told = cli(*line, "--check", "reciprocity", "--check", "isotropy", "--format", "json")
+    checks = [result["check"] for result in json.loads(told.out)["results"]]
+    assert told.code == 0 and checks == ["positivity", "reciprocity", "isotropy"]
+    assert "'all' stands alone" in cli(*line, "--check", "all").err
