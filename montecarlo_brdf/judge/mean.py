@@ -42,6 +42,7 @@ LUCK = 5e-3
 FASTEST = 1.0
 #: standard errors that the truth is from an estimate at most, where that only saves work
 SURE = 4.0
+LONGEST = 40  # the power of 2 of the most samples that may be asked for
 UNFIT = "unfit"  # what is shown of an estimator that is not to be believed
 
 
@@ -349,7 +350,7 @@ def _finding(
     if verdict == Verdict.FAIL and known:
         verdict = Verdict.KNOWN
     e, expected = shown.measurement.estimate, claim.expected
-    note = known if verdict == Verdict.KNOWN else _note(claim, verdict, opinions) or e.method
+    note = known if verdict == Verdict.KNOWN else _note(claim, verdict, opinions, level) or e.method
     return Finding(
         claim.quantity, dict(claim.where), verdict, claim.bound, e.mean, e.stderr,
         expected.value if expected else None, claim.tolerance,
@@ -398,7 +399,23 @@ def _needs(claim: MeanClaim, opinion: Opinion) -> str:
     return f"needs about {more:.0e}" if math.isfinite(more) else "more of them would not tell"
 
 
-def _note(claim: MeanClaim, verdict: Verdict, opinions: Opinions) -> str | None:
+def _enough(claim: MeanClaim, opinion: Opinion, level: float) -> int:
+    """The power of 2 of samples that decide, at the level that is left for their look."""
+    m, room = opinion.measurement, claim.tolerance
+    e, over = m.estimate, 0.0
+    if claim.expected:
+        room -= claim.expected.error
+        over = max(0.0, claim.expected.excess(claim.bound, e.mean))
+    power = math.ceil(math.log2(_more(claim, opinion)))
+    while power < LONGEST:
+        spent = level * 2.0 ** -len(looks(1 << power))
+        if (m.half_width(spent) + over) * math.sqrt(e.samples / 2.0**power) <= room:
+            break
+        power += 1
+    return power
+
+
+def _note(claim: MeanClaim, verdict: Verdict, opinions: Opinions, level: float) -> str | None:
     """What an inconclusive finding needs."""
     if verdict != Verdict.INCONCLUSIVE:
         return None
@@ -410,5 +427,6 @@ def _note(claim: MeanClaim, verdict: Verdict, opinions: Opinions) -> str | None:
             return f"{told}, which show no error: allow more with --samples"
         if math.isinf(_more(claim, best)):
             return f"{told}: the reference is no more exact than the tolerance, or nothing varied"
-        return f"{told}: {_needs(claim, best)}, allow more with --samples"
+        enough = _enough(claim, best, level / len(fit))
+        return f"{told}: {_needs(claim, best)}, allow them by --samples 2^{enough}"
     return opinions[0].measurement.unfit if opinions else None

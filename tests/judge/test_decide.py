@@ -85,6 +85,26 @@ def test_more_samples_decide() -> None:
     assert (at_first.verdict, in_the_end.verdict) == ("inconclusive", "pass")
 
 
+@pytest.mark.parametrize("stderr", [2e-3, 1e-2])
+def test_the_samples_that_an_open_claim_names_decide_it(stderr: float) -> None:
+    """And are taken unasked where they are within reach."""
+    vague = claim(steady(1.0, stderr))
+    found = decide(vague, PLAN)
+    assert found.verdict == "inconclusive"
+    more = 1 << int((found.note or "").rpartition("--samples 2^")[2])
+    assert decide(vague, PLAN._replace(samples=more)).verdict == "pass"
+    reached = decide(vague, PLAN._replace(reach=GROWTH * more))
+    assert reached.verdict == "pass" and more <= reached.samples * GROWTH
+    assert decide(vague, PLAN._replace(reach=PLAN.samples)).samples == PLAN.samples
+
+
+def test_what_no_samples_within_reach_decide_takes_none_of_them() -> None:
+    far = claim(steady(1.0, 10.0))
+    assert decide(far, PLAN._replace(reach=1 << 24)).samples == PLAN.samples
+    alone = claim(steady(1.0, 2e-3), expected=None)  # nothing to be held against
+    assert decide(alone, PLAN._replace(reach=1 << 24)).samples == PLAN.samples
+
+
 def test_not_a_number_fails() -> None:
     finding = decide(claim(steady(math.nan, math.nan)), PLAN)
     assert finding.verdict == "fail"
