@@ -97,7 +97,9 @@ def of_stand(
 
 def _judged(truth: Truth, k: int, row: Deviation, tolerance: float) -> Finding:
     verdict, level = Verdict.INCONCLUSIVE, None
-    if row.most <= tolerance:
+    if math.isnan(row.worst) and math.isfinite(row.error):  # no number stands for none
+        verdict = Verdict.FAIL
+    elif row.most <= tolerance:
         verdict = Verdict.PASS
     elif not row.least <= tolerance:  # fresh randomisations must say so too
         row, level = truth.again(k, row), LEVEL

@@ -27,6 +27,9 @@ def bad(mu):
 
 def other(nu):
     return nu
+
+def nowhere(mu):
+    return float("nan") if mu < 0.5 else 0.5
 """
 QUICK = ("table", "ggx", *AXES, "--fresh", 32)
 
@@ -97,6 +100,7 @@ def test_fits_by_formula_and_function(cli: Callable[..., Outcome], user_file: Ca
     assert found.code == 1 and "0.0" in found.out
     path = user_file(FITS)
     assert cli(*lossless, "--against", f"{path}:fit", "--tolerance", 1e-9).code == 0
+    assert cli(*lossless, "--against", f"{path}:nowhere", "--tolerance", 0.5).code == 1
     for name, code, words in (
         ("two", 4, "returns 2 numbers, but 1 are asked for: albedo"),
         ("bad", 4, "raised TypeError (line 8)"),

@@ -11,7 +11,7 @@ import numpy as np
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.table.axes import points
 from montecarlo_brdf.table.written.finished import Finished
-from montecarlo_brdf.table.written.npz import Read, _axis, axis_of
+from montecarlo_brdf.table.written.npz import Read, axis_of, facts_of
 
 MARK = "# brdf-check table "
 
@@ -19,7 +19,7 @@ MARK = "# brdf-check table "
 def write(table: Finished) -> bytes:
     """The file."""
     facts = {**table.facts, "model": table.title, "quantities": [*table.values],
-             "axes": [_axis(a) for a in table.axes]}  # fmt: skip
+             "axes": [facts_of(a) for a in table.axes]}  # fmt: skip
     names = [a.name for a in table.axes]
     names += [n for q in table.values for n in (q, f"{q}_error")]
     columns = [c.ravel() for q in table.values for c in (table.values[q], table.errors[q])]

@@ -32,7 +32,7 @@ class Read(NamedTuple):
 def write(table: Finished) -> bytes:
     """The file."""
     facts = {**table.facts, "model": table.title, "quantities": [*table.values],
-             "axes": [_axis(a) for a in table.axes]}  # fmt: skip
+             "axes": [facts_of(a) for a in table.axes]}  # fmt: skip
     arrays: dict[str, Any] = {axis.name: np.array(axis.values()) for axis in table.axes}
     arrays |= table.values
     arrays |= {f"{name}_error": errors for name, errors in table.errors.items()}
@@ -48,12 +48,13 @@ def write(table: Finished) -> bytes:
     return content.getvalue()
 
 
-def _axis(axis: Axis) -> dict[str, Any]:
+def facts_of(axis: Axis) -> dict[str, Any]:
+    """An axis, as files say it."""
     return {**axis._asdict(), "placement": str(axis.placement), "told": axis.told()}
 
 
 def axis_of(said: Mapping[str, Any]) -> Axis:
-    """An axis as files say it."""
+    """The axis that facts say."""
     return Axis(str(said["name"]), float(said["low"]), float(said["high"]), int(said["size"]),
                 Placement(said["placement"]))  # fmt: skip
 
