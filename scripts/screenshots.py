@@ -24,7 +24,7 @@ PAGES = {
     "model": ("run --model first.py", {1400: 1500, 400: 1800}),
     "scene": (f"radiance {ROOT / 'examples' / 'lambert_without_pi.toml'}", {1400: 1300, 400: 1500}),
 }
-COLOURS = 64  # enough for text and lines
+COLOURS = 240  # enough for text, lines and every mark
 
 
 def main() -> int:
