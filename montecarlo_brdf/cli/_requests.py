@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 from montecarlo_brdf import checks, loading
 from montecarlo_brdf.cli._options import numbers, parameter_sets, whole_number
+from montecarlo_brdf.cli._specs import expanded
 from montecarlo_brdf.counterpart import counterpart
 from montecarlo_brdf.errors import ModelError, UserError, unknown
 from montecarlo_brdf.estimate.plan import Progress, check_theta
@@ -185,25 +186,29 @@ def read(path: Path, overrides: Mapping[str, Any] | None = None) -> Project:
     top.done()
     if not entries:
         raise top.error('there is nothing to check: add [[models]] with model = "ggx"')
-    requests = [_request(entry, terms, overrides or {}) for entry in entries]
+    requests = [one for entry in entries for one in _requests(entry, terms, overrides or {})]
     return Project(unless_all_broken(requests), limit, policy)
 
 
-def _request(entry: Table, terms: Terms, overrides: Mapping[str, Any]) -> Request | Broken:
-    """The request of one [[models]]."""
+def _requests(
+    entry: Table, terms: Terms, overrides: Mapping[str, Any]
+) -> list[Request | Broken]:
+    """The requests of one [[models]]: several where a pattern or a folder stands for models."""
     entry.know("model", "params", "against", *SHARED)
     terms = _shared(entry, terms)
-    try:
-        model = _model(entry, "model")
-    except ModelError as error:
-        return Broken(entry.text_of("model"), error)
+    found = [_model(entry, "model", spec) for spec in _specs(entry, "model")]
+    models = [one for one in found if isinstance(one, Model)]
+    if not models:
+        return [one for one in found if isinstance(one, Broken)]
     if "against" in entry.data:
         terms = terms._replace(against=_against(entry))
     assignments = _assignments(entry)
     entry.done()
     terms = terms._replace(**overrides)
     try:
-        return request(model, assignments, terms)
+        return [
+            request(one, assignments, terms) if isinstance(one, Model) else one for one in found
+        ]
     except UserError as error:
         key = "params" if "params" in entry.data else "against"
         raise entry.error(str(error), key) from error
@@ -269,21 +274,38 @@ def _tolerance(table: Table, key: str) -> float:
 def _spec(table: Table, key: str) -> str:
     """A model's name, or its path, which starts at the file's folder."""
     spec = table.text_of(key)
-    folder = table.file.parent
-    mark = merl.MARK if merl.is_measured(spec) else ""
+    return _from_here(table, spec) if loading.is_path(spec) else spec
+
+
+def _from_here(table: Table, spec: str) -> str:
+    """A path that starts at the file's folder, from where one stands."""
+    folder, mark = table.file.parent, merl.MARK if merl.is_measured(spec) else ""
     path = Path(spec.removeprefix(mark))
-    if loading.is_path(spec) and not path.is_absolute() and folder != Path():
-        return mark + os.path.relpath(folder / path)
-    return spec
+    outside = path.is_absolute() or folder == Path()
+    return spec if outside else mark + os.path.relpath(folder / path)
 
 
-def _model(table: Table, key: str) -> Model:
+def _specs(table: Table, key: str) -> list[str]:
+    """The models that a name, a pattern of files or a folder stands for."""
+    spec = table.text_of(key)
+    try:
+        return expanded(_from_here(table, spec) if _is_place(table, spec) else spec)
+    except UserError as error:
+        raise table.error(str(error), key) from error
+
+
+def _is_place(table: Table, spec: str) -> bool:
+    return loading.is_path(spec) or (table.file.parent / spec).is_dir()
+
+
+def _model(table: Table, key: str, spec: str) -> Model | Broken:
     """The model that a key names."""
     try:
-        return loading.load(_spec(table, key))
+        return loading.load(spec)
+    except ModelError as error:
+        return Broken(spec, ModelError(str(table.error(str(error), key))))
     except UserError as error:
-        wrapped = table.error(str(error), key)
-        raise type(error)(str(wrapped)) from error
+        raise type(error)(str(table.error(str(error), key))) from error
 
 
 def _against(entry: Table) -> str:

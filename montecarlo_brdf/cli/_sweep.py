@@ -98,7 +98,7 @@ def swept(
     command: Command, items: Sequence[Task | Report], texts: Texts, sweep: Sweep,
     threads: int | None, limit: Deadline,
 ) -> Report:  # fmt: skip
-    """The report of a sweep, or of its part; what is not begun in time is inconclusive."""
+    """The report of a sweep, or of its part; what is not answered in time is inconclusive."""
     from montecarlo_brdf.cli._terminal import progress
     from montecarlo_brdf.sweep import pools, shards, task
     from montecarlo_brdf.sweep.engine import Engine
@@ -138,7 +138,7 @@ def _report(
         return one
     answer = answers.get(one.key)
     if answer is None:
-        told = Finding(command, {}, Verdict.INCONCLUSIVE, note=f"not begun: {why}")
+        told = Finding(command, {}, Verdict.INCONCLUSIVE, note=f"not answered: {why}")
         results = [Result(one.name, one.params or {}, command, [told])]
         return Report(command, {}, results, {"seconds": 0.0, INTERRUPTED: False})
     measured = {"seconds": answer["seconds"], "seconds_of_results": answer["times"]}

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from montecarlo_brdf.cli import _options, _sweep
+from montecarlo_brdf.cli import INTERRUPTED, _options, _sweep
 from montecarlo_brdf.cli._options import TEXT, Read, finite, listed, models_of, parameter_sets
 from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.judge.finding import Command, Report
@@ -81,7 +81,8 @@ def command(
             else:
                 report = gather(models_of(spec), assignments, output, sums=sums, **terms)
         show(report)
-        return _options.deliver(report, output)
+        code = _options.deliver(report, output)
+        return INTERRUPTED if report.measured.get("interrupted") else code
 
     return _options.answered(answer, watch)
 

@@ -10,7 +10,7 @@ from montecarlo_brdf.cli import _options
 EPILOG = """\b
 Examples:
   brdf-check merge part1.json part2.json part3.json --export-json whole.json
-  brdf-check merge part*.json --export report.html
+  brdf-check merge part1.json part2.json part3.json --export report.html --quiet
 """
 
 

@@ -6,7 +6,9 @@ The order of answers shows nowhere: they are kept by task.
 from __future__ import annotations
 
 import json
+import math
 import queue
+import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future
@@ -25,9 +27,12 @@ from montecarlo_brdf.verify.question import failed
 from montecarlo_brdf.verify.supervision import Deadline
 
 AHEAD = 2  # requests a worker has before it, so that it never waits
-SPAN = 1.0  # seconds that a request should take: what it costs to ask is far less
-MOST = 256  # tasks of a request
+SPAN = 1.0  # seconds that a request should take at least
+HANDING = 4e-3  # seconds that a request takes of whoever hands it out (scripts/scale.py) ...
+BUSY = 0.25  # ... who should be busy no more than this share of the time
+MOST = 1024  # tasks of a request
 TICK = 0.1  # seconds after which Ctrl-C and limits are looked at
+GRACE = 1.0  # seconds that tasks may go on after the limit
 ATTEMPTS = 3  # of a task whose worker dies each time
 Batch = list[Task]
 Perform = Callable[[str, Mapping[str, bytes], int | None], str]
@@ -53,16 +58,18 @@ class Engine:
         self, todo: Sequence[Task], limit: Deadline, progress: Progress | None = None
     ) -> None:
         """Ask all tasks that the journal has no answer to, and keep the answers in it; those that
-        are not begun when the limit is over are left.
+        are not answered GRACE seconds after the limit are left.
 
         Raises UserError where workers are of other versions, or all of them are lost.
         """
         left = {task.key: task for task in todo if task.key not in self._journal.answers}
         self._waiting.extend(left.values())
-        done = len(todo) - len(left)
+        done, late = len(todo) - len(left), math.inf
         while self._running or ((self._waiting or self._suspects) and not limit.over()):
             if not limit.over():
                 self._submit()
+            elif (late := min(late, time.monotonic())) + GRACE < time.monotonic():
+                return
             try:
                 done += self._take(self._ended.get(timeout=TICK))
             except queue.Empty:
@@ -84,11 +91,14 @@ class Engine:
             self._send([self._waiting.popleft() for _ in range(size)])
 
     def _size(self) -> int:
-        """Tasks of a request: as many as take SPAN, and fewer towards the end, for all workers."""
+        """Tasks of a request: as many as spare whoever hands them out, and fewer towards the end,
+        for all workers."""
         if self._mean is None:
             return 1
-        share = len(self._waiting) // (2 * AHEAD * max(1, self._pool.width()))
-        return max(1, min(int(SPAN / max(self._mean, 1e-9)), share, MOST))
+        width = max(1, self._pool.width())
+        span = max(SPAN, HANDING / BUSY * width)
+        share = len(self._waiting) // (2 * AHEAD * width)
+        return max(1, min(int(span / max(self._mean, 1e-9)), share, MOST))
 
     def _send(self, batch: Batch, large: bool = False) -> None:
         hashes = {file.content for task in batch for file in task.files}
@@ -114,7 +124,8 @@ class Engine:
             self._renew(executor)
             return self._died(batch)
         except self._pool.lost as error:
-            raise UserError("the workers were lost; begin again with the same --results") from error
+            kept = "what they answered is kept where --results says: begin again with the same"
+            raise UserError(f"the workers were lost; {kept}") from error
         if other := tasks.difference(tasks.identity(), told["identity"]):
             raise UserError(f"a worker has another version, {other}: results would be a mixture")
         if "missing" in told:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import multiprocessing
 import os
 import re
 import signal
 import threading
+import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import (
     BrokenExecutor,
@@ -26,6 +28,7 @@ from montecarlo_brdf.verify.question import all_threads
 THREADS, PROCESSES, DASK = "threads", "processes", "dask://"
 ALLOWED = "threads, processes, processes:COUNT or dask://HOST:PORT"
 PATIENCE = 10.0  # seconds that a scheduler may take to answer
+LASTS = 5.0  # seconds for which the number of its workers is taken for known
 EXTRA = "montecarlo-brdf[cluster]"
 
 
@@ -46,7 +49,11 @@ def pool(said: str, threads: int | None) -> Iterator[Pool]:
 
     Raises UserError for a name that stands for none, a scheduler that does not answer."""
     if said == THREADS:
-        yield Pool(ThreadPoolExecutor(1), lambda: 1, threads)
+        executor = ThreadPoolExecutor(1)
+        try:
+            yield Pool(executor, lambda: 1, threads)
+        finally:
+            executor.shutdown(wait=False, cancel_futures=True)
     elif match := re.fullmatch(rf"{PROCESSES}(?::([1-9]\d{{0,3}}))?", said):
         with _processes(int(match[1] or threads or all_threads())) as made:
             yield made
@@ -89,6 +96,19 @@ def _end_with(parent: BaseProcess) -> None:
     os._exit(1)
 
 
+class _Width:
+    """How many tasks a cluster can do at once; to ask takes the scheduler's time."""
+
+    def __init__(self, client: Any) -> None:
+        self._client, self._known, self._due = client, 0, 0.0
+
+    def __call__(self) -> int:
+        if time.monotonic() >= self._due:
+            self._known = sum(self._client.nthreads().values())
+            self._due = time.monotonic() + (LASTS if self._known else 0.0)
+        return self._known
+
+
 @contextlib.contextmanager
 def _dask(address: str) -> Iterator[Pool]:
     try:
@@ -96,6 +116,7 @@ def _dask(address: str) -> Iterator[Pool]:
     except ImportError:
         needed = f"needs the package distributed: pip install '{EXTRA}'"
         raise UserError(f"--executor {DASK}{address} {needed}") from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL + 1)  # one sentence says it
     if not re.fullmatch(r"[^/\s]+:\d+", address):
         raise UserError(f"executor must be {ALLOWED}, not {DASK + address!r}")
     try:
@@ -105,10 +126,7 @@ def _dask(address: str) -> Iterator[Pool]:
     try:
         executor = client.get_executor(pure=False)
         lost = (CancelledError, distributed.client.FutureCancelledError)
-        yield Pool(
-            executor, lambda: sum(client.nthreads().values()), deaths=(distributed.KilledWorker,),
-            lost=lost,
-        )  # fmt: skip
+        yield Pool(executor, _Width(client), deaths=(distributed.KilledWorker,), lost=lost)
     finally:
         with contextlib.suppress(Exception):  # the scheduler may be gone
             client.close(timeout=1.0)

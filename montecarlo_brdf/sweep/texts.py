@@ -14,6 +14,7 @@ from pathlib import Path
 from montecarlo_brdf import files, loading, mixture, reading
 from montecarlo_brdf.counterpart import SPEC
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.measured import merl
 from montecarlo_brdf.sweep.task import File, mark
 
 SMALL = 1 << 16  # bytes; larger files are not kept in memory, nor sent where they may be known
@@ -119,9 +120,9 @@ def _paths(spec: str) -> list[str]:
     mixed = None if os.path.exists(spec) else mixture.parts(spec)
     found = []
     for name in [name for _, name in mixed] if mixed else [spec]:
-        path, _, member = name.partition(".py:")
-        path = f"{path}.py" if member else name
-        if loading.is_path(path) and os.path.isfile(path):
+        path, _, member = name.removeprefix(merl.MARK).partition(".py:")
+        path = f"{path}.py" if member else path
+        if loading.is_path(name) and os.path.isfile(path):
             found.append(path)
     return found
 

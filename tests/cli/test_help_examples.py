@@ -31,6 +31,7 @@ ALPHA = EXACT.replace("albedo: float = 0.8", "albedo: float = 0.5\n    alpha: fl
 #: what the examples call a user's own
 FILES = {
     "my_brdf.py": ALPHA,
+    "brdfs/my_brdf.py": ALPHA,
     "my_ggx.py": GGX,
     "my_aniso.py": ANISO,
     "my_fit.py": GGX + "def albedo(cos_theta_o, p):\n    return 0.99\n",
@@ -64,6 +65,7 @@ def test_every_command_has_an_example() -> None:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("a folder with blanks")
     for name, text in FILES.items():
+        (path / name).parent.mkdir(exist_ok=True)
         (path / name).write_text(text, encoding="utf-8")
     return path
 
@@ -83,6 +85,10 @@ def test_an_example_runs(
     process("init")
     process("furnace", "--model", "lambert", "--theta-o", 0, "--export", "report.json",
             "--export", "furnace.json", "--export", "run.json")  # fmt: skip
+    if words[0] == "merge":
+        sweep = ("furnace", "--model", "lambert", "-p", "albedo=0.1,0.2,0.3", "--theta-o", 0)
+        for k in (1, 2, 3):
+            process(*sweep, "--shard", f"{k}/3", "--export-json", f"part{k}.json")
     if words[0] == "plot":
         process("bench", "--model", "lambert", "--quick", "--export", "time.json")
     outcome = process(*words)

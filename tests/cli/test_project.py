@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -143,3 +144,23 @@ def test_nothing_to_run(
     (tmp_path / "brdf-check.toml").write_text(GOOD.replace("mine.py", "phong"), encoding="utf-8")
     done = cli("run", "--check", "furnace", "-p", "n=3")
     assert done.code == 2 and done.err.startswith("Error: -p, --check need")
+
+
+def test_a_pattern_and_a_folder_stand_for_their_models(
+    tmp_path: Path, cli: Callable[..., Outcome], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "b").mkdir()
+    monkeypatch.chdir(tmp_path / "b")
+    monkeypatch.setattr(sys, "path", sys.path[:])
+    for name in ("one.py", "two.py"):
+        (tmp_path / "b" / name).write_text("def f(wo, wi, p):\n    return 0.1\n")
+    (tmp_path / "b" / "broken.py").write_text("def f(:\n")
+    checks = 'checks = ["positivity"]\n'
+    for model, expected in (("../b", "broken one two"), ("[ot]*.py", "one two")):
+        (tmp_path / "b" / "brdf-check.toml").write_text(f'{checks}[[models]]\nmodel = "{model}"\n')
+        out = cli("run", "--effort", 0.01, "--format", "json").out
+        found = [Path(result["model"]).stem for result in json.loads(out)["results"]]
+        assert found == expected.split()
+    (tmp_path / "b" / "brdf-check.toml").write_text('[[models]]\nmodel = "no/*.py"\n')
+    outcome = cli("run")
+    assert outcome.code == 2 and "brdf-check.toml, line 2: no file fits no/*.py" in outcome.err

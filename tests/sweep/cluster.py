@@ -6,7 +6,7 @@ if __name__ == "__main__":
     from distributed import LocalCluster
 
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=50
     ) as cluster:
         pids = [str(worker.process.pid) for worker in cluster.workers.values()]
         print(cluster.scheduler_address.removeprefix("tcp://"), *pids, flush=True)

@@ -11,6 +11,7 @@ import pytest
 
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.judge.finding import Command
+from montecarlo_brdf.sweep import engine
 from montecarlo_brdf.sweep import task as tasks
 from montecarlo_brdf.sweep.engine import ATTEMPTS, Engine
 from montecarlo_brdf.sweep.journal import Journal
@@ -98,16 +99,28 @@ def test_large_files_are_sent_where_they_are_missing(tmp_path: Path) -> None:
         return nothing(asked, sent, threads)
 
     executor, journal = Direct(), Journal(None, {})
-    engine = Engine(Pool(executor, lambda: 1), texts, journal, perform)
-    engine.ask([task(0, [file]), task(1, [file])], Deadline())
+    asking = Engine(Pool(executor, lambda: 1), texts, journal, perform)
+    asking.ask([task(0, [file]), task(1, [file])], Deadline())
     assert len(journal.answers) == 2 and known[file.content] == bytes(1 << 17)
     path.write_bytes(bytes(1 << 18))
     known.clear()
     with pytest.raises(UserError, match="was changed while its model was checked"):
-        engine.ask([task(2, [file])], Deadline())
+        asking.ask([task(2, [file])], Deadline())
 
 
 def test_after_the_limit_nothing_is_begun() -> None:
     executor, journal = Direct(), Journal(None, {})
     Engine(Pool(executor, lambda: 2), Texts(), journal, nothing).ask([task(0)], Deadline(-1.0))
     assert not executor.asked and not journal.answers
+
+
+def test_what_goes_on_after_the_limit_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Never(Direct):
+        def submit(self, function: Any, /, *arguments: Any, **more: Any) -> Future[Any]:
+            self.asked.append([])
+            return Future()
+
+    monkeypatch.setattr(engine, "GRACE", 0.0)
+    executor, journal = Never(), Journal(None, {})
+    Engine(Pool(executor, lambda: 1), Texts(), journal, nothing).ask([task(0)], Deadline(0.05))
+    assert len(executor.asked) == 1 and not journal.answers

@@ -90,6 +90,41 @@ def test_patterns_and_folders(folder: Path, cli: Command, capsys: pytest.Capture
         assert outcome.code == 2 and sentence in outcome.err
 
 
+@pytest.mark.slow  # processes of their own
+def test_ctrl_c_tells_what_was_answered_and_leaves_no_process(folder: Path) -> None:
+    lay(folder, pause=0.05)
+    kept = folder / "answers.jsonl"
+    command = [*BEGIN, *QUESTION, "--executor", "processes:2", "--results", kept.name]
+    asked = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    until = time.monotonic() + 60.0
+    while not answers(kept) and time.monotonic() < until:
+        time.sleep(0.01)
+    os.killpg(asked.pid, signal.SIGINT)
+    out, err = asked.communicate(timeout=60)
+    assert asked.returncode == 130 and "Traceback" not in err, err
+    assert 0 < out.count("not answered: interrupted") < TASKS
+    with pytest.raises(ProcessLookupError):
+        while time.monotonic() < until:
+            os.killpg(asked.pid, 0)
+            time.sleep(0.1)
+
+
+@pytest.mark.slow
+def test_a_model_that_kills_its_process_is_told_and_the_others_are_answered(
+    folder: Path, cli: Command
+) -> None:
+    path = folder / "brdfs" / "one.py"
+    kills = "    if p.a == 0.5:\n        import os\n        os.kill(os.getpid(), 9)\n    return p"
+    path.write_text(path.read_text().replace("    return p\n", f"{kills}\n", 1))
+    outcome = cli(*QUESTION, "--executor", "processes:2")
+    assert outcome.code == 4
+    sentence = "the process that was asked ended without an answer, 3 times"
+    assert outcome.err.count(sentence) == outcome.out.count(sentence) == 1
+    assert outcome.out.count('"verdict": "error"') == 3  # finding, result, report
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
