@@ -13,6 +13,7 @@ again what was measured.
 from __future__ import annotations
 
 import contextlib
+import functools
 import json
 import os
 import subprocess
@@ -48,17 +49,18 @@ if __name__ == "__main__":
 
 
 def idle(asked: str, sent: Mapping[str, bytes], threads: int | None) -> str:
-    """What a worker answers that only waits: for as long as tasks say, with their own results."""
+    """What a worker answers that only waits, for as long as tasks say."""
     from montecarlo_brdf.sweep import task as tasks
 
     answers = []
     for one in tasks.read(asked):
         seconds = float(one.terms["seconds"])
         time.sleep(seconds)
-        answers.append({**one.terms["answer"], "seconds": seconds})
+        answers.append({**typical(), "seconds": seconds})
     return json.dumps({"identity": tasks.identity(), "answers": answers})
 
 
+@functools.cache
 def typical() -> dict[str, Any]:
     """The answer to a furnace test of one angle."""
     from montecarlo_brdf import furnace, load
@@ -108,13 +110,12 @@ def measured(count: int, seconds: float, single: bool) -> dict[str, Any]:
     from montecarlo_brdf.verify.supervision import Deadline
 
     engine.MOST = 1 if single else MOST
-    answer = typical()
     with cluster() as (address, processes), tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "answers.jsonl"
         with pools.pool(f"{pools.DASK}{address}", None) as pool:
 
             def ask(n: int, about: str) -> None:
-                terms = {"seconds": seconds, "answer": answer, "about": about}
+                terms = {"seconds": seconds, "about": about}
                 todo = [Task(Command.FURNACE, "lambert", "lambert", {"k": k}, terms)
                         for k in range(n)]  # fmt: skip
                 journal = Journal(path, task.identity())

@@ -12,7 +12,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future
-from typing import Any
+from typing import Any, NamedTuple
 
 from montecarlo_brdf.errors import ModelError, UserError
 from montecarlo_brdf.estimate.plan import Progress
@@ -28,13 +28,23 @@ from montecarlo_brdf.verify.supervision import Deadline
 
 AHEAD = 2  # requests a worker has before it, so that it never waits
 SPAN = 1.0  # seconds that a request should take at least
-HANDING = 4e-3  # seconds that a request takes of whoever hands it out (scripts/scale.py) ...
+HANDING = 6e-3  # seconds that a request takes of whoever hands it out (scripts/scale.py) ...
 BUSY = 0.25  # ... who should be busy no more than this share of the time
 MOST = 1024  # tasks of a request
 TICK = 0.1  # seconds after which Ctrl-C and limits are looked at
 GRACE = 1.0  # seconds that tasks may go on after the limit
 ATTEMPTS = 3  # of a task whose worker dies each time
 Batch = list[Task]
+
+
+class Request(NamedTuple):
+    """Some tasks that a worker has."""
+
+    batch: Batch
+    executor: Executor
+    alone: bool  # nobody else is asked meanwhile: if the worker dies these tasks did it
+
+
 Perform = Callable[[str, Mapping[str, bytes], int | None], str]
 
 
@@ -48,9 +58,9 @@ class Engine:
         self._pool, self._texts, self._journal, self._perform = pool, texts, journal, perform
         self._executor: Executor = pool.executor
         self._waiting: deque[Task] = deque()
-        self._suspects: deque[Task] = deque()  # their worker died: asked alone, one at a time
+        self._suspects: deque[Batch] = deque()  # their worker died: asked alone
         self._attempts: dict[str, int] = {}
-        self._running: dict[Future[str], tuple[Batch, Executor]] = {}
+        self._running: dict[Future[str], Request] = {}
         self._ended: queue.SimpleQueue[Future[str]] = queue.SimpleQueue()
         self._mean: float | None = None  # seconds of a task
 
@@ -81,7 +91,7 @@ class Engine:
         """Keep workers busy, or find out which task kills them."""
         if self._suspects:
             if not self._running:
-                self._send([self._suspects.popleft()])
+                self._send(self._suspects.popleft(), alone=True)
             return
         room = AHEAD * max(1, self._pool.width()) - len(self._running)
         for _ in range(room):
@@ -100,36 +110,33 @@ class Engine:
         share = len(self._waiting) // (2 * AHEAD * width)
         return max(1, min(int(span / max(self._mean, 1e-9)), share, MOST))
 
-    def _send(self, batch: Batch, large: bool = False) -> None:
+    def _send(self, batch: Batch, alone: bool = False, large: bool = False) -> None:
         hashes = {file.content for task in batch for file in task.files}
-        sent = self._texts.of(hashes, large)
+        asked = tasks.written(batch), self._texts.of(hashes, large), self._pool.threads
         try:
-            future = self._executor.submit(
-                self._perform, tasks.written(batch), sent, self._pool.threads
-            )
+            future = self._executor.submit(self._perform, *asked)
         except self._pool.deaths:  # while nothing was asked
             self._renew(self._executor)
-            future = self._executor.submit(
-                self._perform, tasks.written(batch), sent, self._pool.threads
-            )
-        self._running[future] = batch, self._executor
+            future = self._executor.submit(self._perform, *asked)
+        self._running[future] = Request(batch, self._executor, alone)
         future.add_done_callback(self._ended.put)
 
     def _take(self, future: Future[str]) -> int:
         """Keep what was answered; how many tasks are done with."""
-        batch, executor = self._running.pop(future)
+        request = self._running.pop(future)
+        batch = request.batch
         try:
             told = json.loads(future.result())
         except self._pool.deaths:
-            self._renew(executor)
-            return self._died(batch)
+            self._renew(request.executor)
+            return self._died(request)
         except self._pool.lost as error:
             kept = "what they answered is kept where --results says: begin again with the same"
             raise UserError(f"the workers were lost; {kept}") from error
         if other := tasks.difference(tasks.identity(), told["identity"]):
             raise UserError(f"a worker has another version, {other}: results would be a mixture")
         if "missing" in told:
-            self._send(batch, large=True)
+            self._send(batch, request.alone, large=True)
             return 0
         for task, answer in zip(batch, told["answers"], strict=True):
             if "refused" in answer:
@@ -144,21 +151,25 @@ class Engine:
         if self._pool.renewed and executor is self._executor:
             self._executor = self._pool.renewed()
 
-    def _died(self, batch: Batch) -> int:
-        """Ask each task again, alone; one whose worker died again and again is given up."""
-        done = 0
-        for task in batch:
-            alone = len(batch) == 1
-            self._attempts[task.key] = self._attempts.get(task.key, 0) + alone
-            if self._attempts[task.key] < ATTEMPTS:
-                self._suspects.append(task)
-                continue
-            sentence = f"the process that was asked ended without an answer, {ATTEMPTS} times"
-            self._journal.answers[task.key] = plain(
-                failed(task.command, task.name, ModelError(sentence))
-            )
-            done += 1
-        return done
+    def _died(self, request: Request) -> int:
+        """Ask again, alone; then by halves, until it is known which task did it. That is given up
+        when its worker died again and again."""
+        batch = request.batch
+        if not request.alone:
+            self._suspects.append(batch)
+            return 0
+        if len(batch) > 1:
+            self._suspects.extend((batch[: len(batch) // 2], batch[len(batch) // 2 :]))
+            return 0
+        (task,) = batch
+        self._attempts[task.key] = self._attempts.get(task.key, 0) + 1
+        if self._attempts[task.key] < ATTEMPTS:
+            self._suspects.append(batch)
+            return 0
+        sentence = f"the process that was asked ended without an answer, {ATTEMPTS} times"
+        error = ModelError(sentence)
+        self._journal.answers[task.key] = plain(failed(task.command, task.name, error))
+        return 1
 
 
 def plain(report: Report) -> dict[str, Any]:
