@@ -180,8 +180,9 @@ def _plausible(r: Array, g: Geometry) -> bool:
 
 
 def _spread(a: Array, y: Array) -> float:
-    weight = np.ones(len(y))
-    off = y
+    weight, off = np.ones(len(y)), y
+    if not np.isfinite(a).all():
+        return np.inf
     for _ in range(ROUNDS):
         c = np.linalg.lstsq(a * weight[:, None], y * weight, rcond=None)[0]
         off = np.abs(a @ c - y)

@@ -80,8 +80,9 @@ def _shares(got: Array, due: Array) -> tuple[str, float] | None:
             return (f"pdf is that of one lobe alone (number {k + 1} of {n}); sample chooses among "
                     f"lobes {_listed(due[0])}"), 2.5
     if np.max(np.abs(got.sum(axis=1) - 1.0)) < 2.0 * APART and got.min() > -APART:
+        worst = int(np.argmax(np.abs(got - due).max(axis=1)))
         return (f"pdf chooses among lobes with other probabilities than sample: sample draws them "
-                f"{_listed(due[0])}, pdf weighs them {_listed(got[0])} (first case)"), 3.0
+                f"{_listed(due[worst])}, pdf weighs them {_listed(got[worst])} (worst case)"), 3.0
     ratio = got / due
     k = int(np.argmax(np.abs(ratio - 1.0).max(axis=0)))
     others = np.max(np.abs(np.delete(ratio, k, axis=1) - 1.0))

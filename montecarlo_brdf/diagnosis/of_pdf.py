@@ -36,12 +36,6 @@ class Known:
         self.bad = {b.spot for b in failed.get(Law.DENSITY, [])}
         self.mass_holds = Law.MASS not in failed
 
-    @property
-    def where(self) -> str:
-        """'so at all 8 cases'."""
-        n, bad = len(self.index), len(self.bad)
-        return f"so at all {n} cases" if bad == n else f"so at {bad} of {n} cases"
-
     def ratios(self) -> list[tuple[Array, Geometry]]:
         """pdf over density of each."""
         return [(d.ratio, d.g) for d in self.draws]
@@ -77,11 +71,11 @@ def folded(known: Known, failed: Failures) -> Iterator[Repair]:
         one = [float(np.mean(_best(d) < DENSITY)) for d in known.draws]
         if min(up) > 0.85 or (single and min(one) > 0.8 and np.mean(one) > 0.9):
             yield _pdf(f"sample: draws below the horizon are folded up, not rejected: pdf is the "
-                       f"density of one of the two draws that give a direction, {known.where}", 3.0)
+                       "density of one of the two draws that give a direction", 3.0)
             return
     if _one_root_each(known):
         yield _pdf(f"sample: draws of a lobe below the horizon are folded up, not rejected: pdf "
-                   f"counts one of the two draws that give a direction, {known.where}", 3.0)
+                   "counts one of the two draws that give a direction", 3.0)
 
 
 def _nearly(other: Array, d: Draws) -> float:
@@ -124,7 +118,7 @@ def _one_root_each(known: Known) -> bool:
 def rejected(known: Known, failed: Failures) -> Iterator[Repair]:
     """pdf integrates to 1 although draws are rejected."""
     lost = [d.rejected for d in known.draws]
-    if max(lost, default=0.0) < 0.02:
+    if Law.DENSITY not in failed or max(lost, default=0.0) < 0.02:
         return
     for k, d, r in zip(known.index, known.draws, lost, strict=True):
         c, (mass, error) = constant(d.ratio, DENSITY), known.laws.mass(k)
@@ -153,7 +147,7 @@ def factors(known: Known, failed: Failures) -> Iterator[Repair]:
     said = _factor_said(known, found)
     extra = 0.5 * cost(found.exponents) + (1.0 if found.word.text else 0.0)
     spots = known.at.spots
-    yield _pdf(f"{said}; {known.where}", 2.0 + extra,
+    yield _pdf(said, 2.0 + extra,
                divisor=lambda g, k: found.at(g, spots[k].p))
 
 
@@ -214,7 +208,7 @@ def moved(known: Known, failed: Failures) -> Iterator[Repair]:
     tried |= {name: lambda d, k, n=name: d.moved[n] for name in (TURNED, QUARTER, AZIMUTH)}  # type: ignore[misc]
     for words, pdf in tried.items():
         if not known.laws.of_pdf(pdf):
-            yield _pdf(f"pdf is the density of the draws {words}; {known.where}", 2.6)
+            yield _pdf(f"pdf is the density of the draws {words}", 2.6)
 
 
 def azimuth(known: Known, failed: Failures) -> Iterator[Repair]:
@@ -275,7 +269,7 @@ def parameters(known: Known, failed: Failures) -> Iterator[Repair]:
     for said, changed in tries:
         if changed != sets and _fits(known, changed):
             yield _pdf(f"pdf is the density of the draws {said}: pdf is {_wider(known)} than the "
-                       f"draws; {known.where}", 3.5)
+                       "draws", 3.5)
             return
 
 

@@ -23,9 +23,10 @@ if TYPE_CHECKING:
 
 NEAR = 1e-7  # of a special place: directions that differ by ulps are there
 SAME = 1e-12
-SOME = 0.3  # share of a special place that is bad at least
+SOME = 0.02  # share of a special place that is bad at least: rounding decides there
 FEWEST = 4  # bad points that show a threshold
 GRAZING = 0.3  # cosine
+INNER = 0.9999  # of cosines: at the ends of their range special places tell
 ZERO = 0.01  # cosine: a threshold at 0, where a root or power is of a negative number
 
 
@@ -47,11 +48,14 @@ def region(at: Look, bad: Flags, names: list[str], of_wo: bool = False) -> Regio
     if not bad.any() or bad.all():
         return Region("everywhere", True) if bad.all() else None
     g = geometry(at.points.wo, at.points.wi)
+    within, said = np.ones(len(bad), dtype=bool), list[str]()
     for name, inside in _special(at, g, names, of_wo):
-        share = float(bad[inside].mean()) if inside.any() else 0.0
-        if inside.any() and not (bad & ~inside).any() and (share > SOME or bad.sum() > 1):
-            if share == 1.0 or share > 0.01:
-                return Region(name, share == 1.0)
+        if (bad & ~inside).any() or not (within & ~inside).any() or bad[within].all():
+            continue
+        within = within & inside
+        said.append(name)
+    if said and bad[within].mean() > SOME:
+        return Region(" and ".join(said), bool(bad[within].all()))
     return _threshold(at, g, bad, names, of_wo)
 
 
@@ -100,8 +104,8 @@ def _threshold(
     for name, v in _quantities(at, g, names, of_wo):
         for sign, words in ((1.0, "<"), (-1.0, ">")):
             inside, outside = (sign * v[bad]).max(), (sign * v[~bad]).min()
-            if inside < outside:
-                t = 0.5 * sign * (inside + outside)
+            t = 0.5 * sign * (inside + outside)
+            if inside < outside and (name in names or abs(t) < INNER):
                 return Region(f"{name} {words} {t:.3g}{_remark(name, t, words)}", True)
     return None
 
@@ -123,7 +127,7 @@ def _quantities(
         yield "wo.h", g.out_half
         flat = g.wo[:, 0] * g.wi[:, 0] + g.wo[:, 1] * g.wi[:, 1]
         yield MIRROR, g.cos_i * g.cos_o - flat
-        yield "cos of the azimuth between wo and wi", flat
+        yield "sin_o sin_i cos(phi_o - phi_i)", flat
     for n in names:
         yield n, at.points.table[:, at.case.one._fields.index(n)]
 

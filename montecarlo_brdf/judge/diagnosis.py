@@ -28,24 +28,17 @@ class Cause:
 
 
 @dataclass(frozen=True)
-class Place:
-    """The worst finding of a check, with the function and line that it is about."""
-
-    check: str
-    sentence: str
-    where: Mapping[str, Any]
-    function: str
-    line: int | None = None
-
-
-@dataclass(frozen=True)
 class Diagnosis:
-    """One for each refuted model and parameter set."""
+    """One for each refuted model and parameter set: what failed stands in its findings."""
 
     model: str
     params: Mapping[str, Any]
-    cause: Cause | None
-    places: tuple[Place, ...]  # of what failed and does not follow from the cause
-    follows: int = 0  # findings that are consequences of it
-    reproduce: str = ""  # the command that shows the worst
-    seconds: float = field(default=0.0, compare=False)  # of the processor
+    cause: Cause | None = None
+    reproduce: str = ""  # the command that shows the worst finding of what is at fault
+    seconds: float = field(default=0.0, compare=False)  # of the processor; not reported
+
+    def told(self) -> dict[str, Any]:
+        """As plain data."""
+        cause = {"cause": vars(self.cause)} if self.cause else {}
+        return {"model": self.model, "params": dict(self.params), **cause,
+                "reproduce": self.reproduce}  # fmt: skip

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
+from montecarlo_brdf.judge.diagnosis import Diagnosis
 from montecarlo_brdf.statistics import FLOOR, with_error
 
 SCHEMA = 1
@@ -88,6 +89,7 @@ class Finding:
     hint: str | None = None
     reproduce: str | None = None
     draws: dict[str, Any] | None = None  # counts in cells of equal probability, for pictures
+    follows: str | None = None  # from what of the model: a consequence of its cause
 
     @property
     def number(self) -> str:
@@ -131,6 +133,7 @@ class Report:
     results: list[Result]
     measured: dict[str, Any] = field(default_factory=dict)
     versions: dict[str, str] | None = None  # of what made it, if that is not this process
+    diagnosis: Sequence[Diagnosis] = ()  # of each model that was refuted
 
     @property
     def verdict(self) -> Verdict:
@@ -150,8 +153,9 @@ class Report:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data; `results` has nothing that changes between equal runs."""
+        told = {"diagnosis": [d.told() for d in self.diagnosis]} if self.diagnosis else {}
         return {
-            "schema": SCHEMA, "command": self.command, "verdict": self.verdict,
+            "schema": SCHEMA, "command": self.command, "verdict": self.verdict, **told,
             "versions": self.versions or versions(), "settings": self.settings,
             "results": [_result(r) for r in self.results], "measured": self.measured,
         }  # fmt: skip

@@ -1,0 +1,114 @@
+"""The diagnosis of a refuted model: its cause, or the places where it fails; and what follows."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from montecarlo_brdf.cases.case import Case
+from montecarlo_brdf.diagnosis.cause import Examined
+from montecarlo_brdf.diagnosis.laws import Law
+from montecarlo_brdf.diagnosis.repair import Repair
+from montecarlo_brdf.judge.diagnosis import Cause, Diagnosis, Part
+from montecarlo_brdf.judge.finding import Finding, Result, Verdict
+
+Refuted = list[tuple[Result, Finding]]
+#: check -> the parts whose repair may mend it, the one that it is about first
+BLAMED = {
+    "positivity": (Part.VALUES,),
+    "reciprocity": (Part.F, Part.VALUES),
+    "isotropy": (Part.F, Part.VALUES),
+    "energy": (Part.F, Part.VALUES),
+    "equality": (Part.F, Part.VALUES),
+    "limits": (Part.F, Part.VALUES),
+    "furnace": (Part.F, Part.VALUES),
+    "radiance": (Part.F, Part.VALUES),
+    "pdf": (Part.PDF, Part.DRAWS, Part.VALUES),
+    "sampling": (Part.PDF, Part.DRAWS),
+    "cover": (Part.PDF, Part.WEIGHT, Part.DRAWS),
+}
+#: check -> the laws of f that must be seen to fail where it does, or no repair of f is believed
+SEEN = {
+    "reciprocity": {Law.RECIPROCITY}, "isotropy": {Law.ISOTROPY}, "equality": {Law.SAME},
+    "energy": {Law.ENERGY, Law.REVERSE}, "limits": {Law.SAME, Law.ALBEDO},
+}  # fmt: skip
+#: what draws at fault spoil: means by the model's own sampler
+OWN = "own"
+WEIGHTS, FAULTS = "|weight/(f cos/pdf) - 1|", "drawn directions at fault"
+
+
+def refuted(results: Sequence[Result]) -> Refuted:
+    """The findings that failed, of checks that a cause may explain."""
+    return [
+        (r, f) for r in results if r.check in BLAMED for f in r.findings
+        if f.verdict == Verdict.FAIL
+    ]  # fmt: skip
+
+
+def blamed(check: str, f: Finding) -> tuple[Part, ...]:
+    """The parts whose repair may mend a finding."""
+    parts = BLAMED[check]
+    if f.quantity == WEIGHTS:
+        return (Part.WEIGHT, Part.PDF, Part.DRAWS, Part.VALUES)
+    if f.quantity == FAULTS:
+        return (Part.DRAWS, Part.PDF, Part.WEIGHT)
+    if f.estimator == OWN and parts[0] is Part.F and check != "energy":
+        return (*parts, Part.PDF, Part.WEIGHT, Part.DRAWS)
+    return parts
+
+
+def diagnose(case: Case, results: Sequence[Result]) -> Diagnosis | None:
+    """What is wrong with a model of one parameter set; None if nothing was refuted."""
+    failed = refuted(results)
+    if not failed:
+        return None
+    began = time.process_time()
+    examined = Examined(case, results)
+    chosen = _chosen(examined, failed)
+    return Diagnosis(
+        failed[0][0].model, failed[0][0].params, _cause(examined, chosen, len(failed)),
+        seconds=time.process_time() - began,
+    )  # fmt: skip
+
+
+def _chosen(examined: Examined, failed: Refuted) -> Repair | None:
+    """The simplest repair that mends all that failed: at the places stored, and of the checks."""
+    good = [
+        r for r in examined.repairs
+        if examined.need <= r.mends and all(_mended(examined, r, *one) for one in failed)
+    ]  # fmt: skip
+    return min(good, key=lambda r: r.penalty, default=None)
+
+
+def _mended(examined: Examined, r: Repair, result: Result, f: Finding) -> bool:
+    if not r.mends & set(blamed(result.check, f)):
+        return False
+    seen = SEEN.get(result.check)
+    of_f = r.part is Part.F and seen is not None
+    return not of_f or bool(seen & set(examined.failed))  # type: ignore[operator]
+
+
+def _cause(examined: Examined, r: Repair | None, many: int) -> Cause | None:
+    if r is None:
+        return None
+    n, laws = len(examined.at.spots), len(examined.failed)
+    tested = (
+        f"repaired, {'the law' if laws == 1 else f'all {laws} laws'} that failed "
+        f"{'holds' if laws == 1 else 'hold'} at {n} of {n} places stored"
+    )
+    return Cause(r.part, r.sentence, tested)
+
+
+def marked(results: Sequence[Result], found: Diagnosis) -> Iterator[Result]:
+    """The results, with the findings marked that follow from the cause."""
+    for r in results:
+        yield replace(r, findings=[_marked(r.check, f, found.cause) for f in r.findings])
+
+
+def _marked(check: str, f: Finding, cause: Cause | None) -> Finding:
+    if cause is None or f.verdict != Verdict.FAIL or check not in BLAMED:
+        return f
+    about = blamed(check, f)[0]
+    follows = about is not cause.part and not (about is Part.PDF and cause.part is Part.DRAWS)
+    return replace(f, follows=cause.part) if follows else f
