@@ -26,7 +26,7 @@ FLOW = (
     ("judge",),
     ("truth",),
     ("checks",),
-    ("scene", "stability", "table"),
+    ("diagnosis", "scene", "stability", "table"),
     ("report",),
     ("verify",),
     ("sweep",),

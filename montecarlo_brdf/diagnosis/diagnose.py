@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -10,8 +11,8 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.diagnosis.cause import Examined
 from montecarlo_brdf.diagnosis.laws import Law
 from montecarlo_brdf.diagnosis.repair import Repair
-from montecarlo_brdf.judge.diagnosis import Cause, Diagnosis, Part
-from montecarlo_brdf.judge.finding import Finding, Result, Verdict
+from montecarlo_brdf.judge.diagnosis import Cause, Diagnosis, Part, Place
+from montecarlo_brdf.judge.finding import Bound, Finding, Result, Verdict
 
 Refuted = list[tuple[Result, Finding]]
 #: check -> the parts whose repair may mend it, the one that it is about first
@@ -33,6 +34,9 @@ SEEN = {
     "reciprocity": {Law.RECIPROCITY}, "isotropy": {Law.ISOTROPY}, "equality": {Law.SAME},
     "energy": {Law.ENERGY, Law.REVERSE}, "limits": {Law.SAME, Law.ALBEDO},
 }  # fmt: skip
+#: part -> the function that is looked at
+FUNCTIONS = {Part.VALUES: "f", Part.F: "f", Part.PDF: "pdf", Part.WEIGHT: "sample",
+             Part.DRAWS: "sample"}  # fmt: skip
 #: what draws at fault spoil: means by the model's own sampler
 OWN = "own"
 WEIGHTS, FAULTS = "|weight/(f cos/pdf) - 1|", "drawn directions at fault"
@@ -66,10 +70,9 @@ def diagnose(case: Case, results: Sequence[Result]) -> Diagnosis | None:
     began = time.process_time()
     examined = Examined(case, results)
     chosen = _chosen(examined, failed)
-    return Diagnosis(
-        failed[0][0].model, failed[0][0].params, _cause(examined, chosen, len(failed)),
-        seconds=time.process_time() - began,
-    )  # fmt: skip
+    cause, first = _cause(examined, chosen), failed[0][0]
+    seconds = time.process_time() - began
+    return Diagnosis(first.model, first.params, _place(failed, cause), cause, seconds)
 
 
 def _chosen(examined: Examined, failed: Refuted) -> Repair | None:
@@ -89,7 +92,32 @@ def _mended(examined: Examined, r: Repair, result: Result, f: Finding) -> bool:
     return not of_f or bool(seen & set(examined.failed))  # type: ignore[operator]
 
 
-def _cause(examined: Examined, r: Repair | None, many: int) -> Cause | None:
+def _place(failed: Refuted, cause: Cause | None) -> Place:
+    """The worst finding of what is at fault: of the first part that fails, if no cause is known."""
+    parts = (cause.part,) if cause else tuple(Part)
+    for part in parts:
+        some = [one for one in failed if blamed(one[0].check, one[1])[0] is part]
+        if some:
+            break
+    else:
+        some = failed
+    checks = [*BLAMED]
+    result, f = max(some, key=lambda one: (excess(one[1]), -checks.index(one[0].check)))
+    function = FUNCTIONS[blamed(result.check, f)[0]]
+    line = result.source.get("functions", {}).get(function)
+    return Place(result.check, f, function, line)
+
+
+def excess(f: Finding) -> float:
+    """By how many tolerances a finding lies outside its bound."""
+    if f.expected is None or not math.isfinite(f.value):
+        return math.inf
+    over = f.value - f.expected
+    over = abs(over) if f.bound == Bound.EQUAL else -over if f.bound == Bound.AT_LEAST else over
+    return over / (f.tolerance or 1e-12)
+
+
+def _cause(examined: Examined, r: Repair | None) -> Cause | None:
     if r is None:
         return None
     n, laws = len(examined.at.spots), len(examined.failed)

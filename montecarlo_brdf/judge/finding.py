@@ -8,10 +8,12 @@ import platform
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from montecarlo_brdf.judge.diagnosis import Diagnosis
 from montecarlo_brdf.statistics import FLOOR, with_error
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.judge.diagnosis import Diagnosis
 
 SCHEMA = 1
 

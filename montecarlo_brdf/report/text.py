@@ -6,11 +6,12 @@ from __future__ import annotations
 import itertools
 import math
 import re
+import textwrap
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.judge.finding import (
     SEVERITY,
@@ -23,6 +24,9 @@ from montecarlo_brdf.judge.finding import (
     worst,
 )
 from montecarlo_brdf.report.columns import NO_BREAK, Column, Row, Style, painted, table
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.judge.diagnosis import Diagnosis
 
 SYMBOLS = {f"{a}_{d}_deg": f"{a}_{d}" for a in ("theta", "phi") for d in "oi"}
 SIGNS = {Bound.AT_MOST: "<= ", Bound.AT_LEAST: ">= ", Bound.EQUAL: ""}
@@ -183,18 +187,43 @@ class Section(NamedTuple):
     rows: list[Row]
     sentences: Iterable[Sentence]
     results: Sequence[Result]
+    diagnosis: Diagnosis | None = None  # of a model that was refuted
 
 
 def render(
     report: Report, verbose: bool = False, width: int = PLAIN_WIDTH, colour: bool = False
 ) -> str:
     """A report as text. Tables keep to the width; a sentence is one line, however long."""
+    from montecarlo_brdf.report import refuted
+
     lines = []
+    for found in report.diagnosis if verbose else ():
+        lines += _loudly(refuted.head(found), colour)
     for section in sections(report, verbose):
+        if section.diagnosis:
+            lines += _loudly(refuted.head(section.diagnosis), colour)
+            lines += table(refuted.COLUMNS, refuted.rows(section.results), width, colour)
+            hints = [] if section.diagnosis.cause else _hints(section.results)
+            lines += map(str, hints)
+            lines += textwrap.wrap("; ".join(refuted.rest(section.results)), width,
+                                   initial_indent="  ", subsequent_indent="  ")
+            continue
         lines.append(painted(section.title, Style.BOLD, colour))
         lines += table(section.columns, section.rows, width, colour)
         lines += dict.fromkeys(map(str, section.sentences))
-    return "\n".join([*lines, summary(report, colour)]) + "\n"
+    return "\n".join([*lines, summary(report, colour, width)]) + "\n"
+
+
+def _loudly(lines: Sequence[str], colour: bool) -> list[str]:
+    return [painted(lines[0], Style.LOUD, colour), *lines[1:]]
+
+
+def _hints(group: Sequence[Result]) -> Iterator[Sentence]:
+    """The hint of the worst finding of each check that failed, each once."""
+    failed = [r for r in group if r.verdict == Verdict.FAIL]
+    worst_of = [(r, most_telling(r)) for r in failed]
+    told = [_Remark(Kind.HINT, f.hint, r.check, place(f)) for r, f in worst_of if f.hint]
+    return map(_told, _alike(told).values())
 
 
 def sections(report: Report, verbose: bool = False) -> Iterator[Section]:
@@ -206,7 +235,8 @@ def sections(report: Report, verbose: bool = False) -> Iterator[Section]:
     elif report.command is Command.RUN and not verbose:
         for group in grouped(report.results):
             rows = [_check(result) for result in group if result.findings]
-            yield Section(case(group[0]), CHECK, rows, _of_checks(group), group)
+            found = diagnosed(report, group[0])
+            yield Section(case(group[0]), CHECK, rows, _of_checks(group), group, found)
     else:
         for result in report.results:
             places = list(dict.fromkeys(k for f in result.findings for k in f.where))
@@ -214,6 +244,12 @@ def sections(report: Report, verbose: bool = False) -> Iterator[Section]:
             rows = [_finding(f, places) for f in result.findings]
             told = _attention(result, verbose)
             yield Section(title(result), [*columns, *FINDING], rows, told, [result])
+
+
+def diagnosed(report: Report, result: Result) -> Diagnosis | None:
+    """The diagnosis of the model and parameters that a result is of."""
+    same = (d for d in report.diagnosis if d.model == result.model)
+    return next((d for d in same if repr(d.params) == repr(result.params)), None)
 
 
 def title(result: Result) -> str:
@@ -229,10 +265,10 @@ def grouped(results: list[Result]) -> list[list[Result]]:
 
 def most_telling(result: Result) -> Finding:
     """The worst finding of a check, or the one that came nearest to its tolerance."""
-    return min(result.findings, key=lambda f: (SEVERITY.index(Verdict(f.verdict)), -_excess(f)))
+    return min(result.findings, key=lambda f: (SEVERITY.index(Verdict(f.verdict)), -excess(f)))
 
 
-def _excess(f: Finding) -> float:
+def excess(f: Finding) -> float:
     """How near a finding came to its tolerance."""
     if f.expected is None or not f.tolerance or not math.isfinite(f.value):
         return 0.0
@@ -379,8 +415,9 @@ def _broken(result: Result) -> Iterator[Sentence]:
                 yield Sentence(Kind.REPRODUCE, f.reproduce)
 
 
-def summary(report: Report, colour: bool = False) -> str:
-    """The verdict, how it came about, and how often it would be wrong."""
+def summary(report: Report, colour: bool = False, width: int | None = None) -> str:
+    """The verdict, how it came about, and how often it would be wrong; by how many samples only
+    where there is room for it, if a model was refuted."""
     findings = [f for r in report.results for f in r.findings]
     verdict = painted(report.verdict.upper(), style(worst(f.verdict for f in findings)), colour)
     if report.command is Command.STRESS:
@@ -389,7 +426,7 @@ def summary(report: Report, colour: bool = False) -> str:
     samples = min(max(drawn, default=0), report.settings.get("samples", math.inf))
     points = f"{kind} points, " if (kind := report.settings.get("points")) else ""
     drawing = f"up to {samples} samples a claim, {points}" if samples else ""
-    return (
-        f"{verdict}  {tally(findings)}; {drawing}seed {report.settings.get('seed')}; "
-        f"chance of a false alarm <= {report.level:.1g}"
-    )
+    rate = f"chance of a false alarm <= {report.level:.1g}"
+    if report.diagnosis and width is not None:
+        return f"{verdict}  {tally(findings)}; {rate}"
+    return f"{verdict}  {tally(findings)}; {drawing}seed {report.settings.get('seed')}; {rate}"

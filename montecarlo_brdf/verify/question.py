@@ -192,7 +192,8 @@ def merged(reports: Sequence[Report]) -> Report:
     results = [result for r in reports for result in r.results]
     if len(times) == len(results):
         measured["seconds_of_results"] = times
-    return Report(first.command, first.settings, results, measured)
+    told = [d for r in reports for d in r.diagnosis]
+    return Report(first.command, first.settings, results, measured, diagnosis=told)
 
 
 def failed(command: Command, model: str, error: ModelError) -> Report:

@@ -9,13 +9,15 @@ import functools
 import shlex
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
+from typing import Any
 
 from montecarlo_brdf import checks
 from montecarlo_brdf.cases.case import Case, searched
 from montecarlo_brdf.errors import ModelError, TooSlow
 from montecarlo_brdf.estimate.plan import Plan, Progress, check_theta
+from montecarlo_brdf.judge.diagnosis import Diagnosis, Place
 from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verdict
 from montecarlo_brdf.model import Model, Property
 from montecarlo_brdf.verify import failure
@@ -37,6 +39,7 @@ from montecarlo_brdf.verify.supervision import Deadline, supervised
 ANGLES = (0.0, 45.0, 80.0)
 SAMPLES = 1 << 20
 REACH = 1 << 24  # of a claim that these leave open, where it is known that so many decide it
+STEEPEST = 89.999  # degrees: of a viewer that a command names
 GRACE = 1.0  # seconds that a claim may go on after --max-time
 #: what holds or does not, whatever is allowed of values
 LAWS = (Property.RECIPROCITY, Property.ISOTROPY, Property.POSITIVITY)
@@ -95,12 +98,35 @@ def run(
         why, interrupted = "interrupted", True
     told = {"checks": asked, "theta_o_deg": angles, "tolerance": tolerance, **settings.told()}
     told |= {"tolerances": dict(tolerances)} if tolerances else {}
-    results = [task.result(why) for group in groups for task in group]
-    _raise_if_nothing_ran(results)
+    found = [[task.result(why) for task in group] for group in groups]
+    _raise_if_nothing_ran([result for some in found for result in some])
+    results, diagnosis = _diagnosed(groups, found, settings, interrupted)
     times = [task.seconds for group in groups for task in group]
     report = reported(Command.RUN, told, results, started, times)
     report.measured["interrupted"] = interrupted
-    return report
+    return replace(report, diagnosis=diagnosis)
+
+
+def _diagnosed(
+    groups: Sequence[Sequence[Task]], found: Sequence[Sequence[Result]], settings: Settings,
+    interrupted: bool,
+) -> tuple[list[Result], list[Diagnosis]]:
+    """The results, with what follows from a cause marked, and a diagnosis of each case that
+    failed."""
+    results, told = list[Result](), list[Diagnosis]()
+    if interrupted or not any(r.verdict == Verdict.FAIL for some in found for r in some):
+        return [r for some in found for r in some], told
+    from montecarlo_brdf import diagnosis as causes  # imports numpy
+
+    for group, some in zip(groups, found, strict=True):
+        case = group[0].question.case._replace(tolerance=None)
+        if (one := causes.diagnose(case, some)) is None:
+            results += some
+            continue
+        results += causes.marked(some, one)
+        again = _again(case, settings, one.place)
+        told.append(replace(one, place=replace(one.place, reproduce=again)))
+    return results, told
 
 
 def _allowed(
@@ -235,3 +261,29 @@ def _repeat(case: Case, name: str, settings: Settings, finding: Finding) -> str:
     if case.tolerance is not None:
         words += ["--tolerance", f"{name}={exactly(case.tolerance)}"]
     return shlex.join(words)
+
+
+def _again(case: Case, settings: Settings, place: Place) -> str:
+    """The command line that shows the worst finding again, with the parameters and the angle where
+    it was found."""
+    model, where = case.model, place.finding.where
+    words = ["brdf-check", "run", "--model", model.name, "--check", place.check]
+    one = len(case.sets) == 1
+    for key, value in shown_parameters(model, case.p).items():
+        there = where.get(key, value) if one else value
+        values = there if isinstance(there, tuple) else (there,)
+        changed = key in where or value != shown_parameters(model, model.parameters()).get(key)
+        words += ["-p", f"{key}={'/'.join(map(_short, values))}"] if changed else []
+    theta = where.get("theta_o_deg", where.get("theta_i_deg"))
+    if isinstance(theta, float | int):
+        words += ["--theta-o", _short(min(float(theta), STEEPEST))]
+        phi = where.get("phi_o_deg", where.get("phi_i_deg", case.phi_o_deg))
+        words += ["--phi-o", _short(phi)] if phi and not model.isotropic else []
+    words += settings.options(SAMPLES)
+    words += ["--against", case.against.name] if case.against else []
+    return shlex.join(words)
+
+
+def _short(value: Any) -> str:
+    """As a finding's place has it: enough digits to meet it again."""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
