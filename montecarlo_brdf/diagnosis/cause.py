@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.diagnosis import of_weight
 from montecarlo_brdf.diagnosis.laws import PART_OF, PARTS, Failures, Law, Laws
+from montecarlo_brdf.diagnosis.of_values import of_points
 from montecarlo_brdf.diagnosis.repair import Repair, repair
 from montecarlo_brdf.diagnosis.stored import Stored
 from montecarlo_brdf.diagnosis.table import repairs
-from montecarlo_brdf.diagnosis.of_values import of_points
 from montecarlo_brdf.judge.diagnosis import Part
 from montecarlo_brdf.judge.finding import Result
 

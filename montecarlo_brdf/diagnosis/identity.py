@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from montecarlo_brdf.diagnosis import known
-from montecarlo_brdf.diagnosis.geometry import NONE, SHAPES, Exponents, Geometry, monomial
+from montecarlo_brdf.diagnosis.geometry import NONE, SHAPES, Geometry
 from montecarlo_brdf.diagnosis.stored import Stored
 from montecarlo_brdf.diagnosis.words import (
-    ONE,
     PI,
     Factor,
     Word,

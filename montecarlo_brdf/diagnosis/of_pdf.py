@@ -70,11 +70,11 @@ def folded(known: Known, failed: Failures) -> Iterator[Repair]:
         single = all(len(d.of.shares) == 1 for d in known.draws if d.of)
         one = [float(np.mean(_best(d) < DENSITY)) for d in known.draws]
         if min(up) > 0.85 or (single and min(one) > 0.8 and np.mean(one) > 0.9):
-            yield _pdf(f"sample: draws below the horizon are folded up, not rejected: pdf is the "
+            yield _pdf("sample: draws below the horizon are folded up, not rejected: pdf is the "
                        "density of one of the two draws that give a direction", 3.0)
             return
     if _one_root_each(known):
-        yield _pdf(f"sample: draws of a lobe below the horizon are folded up, not rejected: pdf "
+        yield _pdf("sample: draws of a lobe below the horizon are folded up, not rejected: pdf "
                    "counts one of the two draws that give a direction", 3.0)
 
 

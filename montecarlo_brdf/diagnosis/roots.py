@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from montecarlo_brdf.diagnosis.ask import drawn
+
 if TYPE_CHECKING:
     from montecarlo_brdf.diagnosis.geometry import Array
     from montecarlo_brdf.model import Model

@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from montecarlo_brdf.judge.finding import SEVERITY, Command, Report, Result, Verdict, worst
-from montecarlo_brdf.report import densities, listing, pictures, sketches, text
+from montecarlo_brdf.report import densities, listing, pictures, refuted, sketches, text
 from montecarlo_brdf.report.columns import NO_BREAK, Column
 from montecarlo_brdf.report.pictures import inline
 
 if TYPE_CHECKING:
     from jinja2 import Template
+
+    from montecarlo_brdf.judge.diagnosis import Diagnosis
 
 TEMPLATES = Path(__file__).parent / "templates"
 #: commands with pictures of their own for each part
@@ -95,6 +97,16 @@ class Part(NamedTuple):
     picture: str = ""
     caption: str = ""
     source: listing.Source | None = None
+    lead: Lead | None = None
+
+
+class Lead(NamedTuple):
+    """The cause of a refuted model, or the place to look at."""
+
+    label: str
+    sentence: str
+    tested: str
+    command: str
 
 
 class Table(NamedTuple):
@@ -125,12 +137,20 @@ def _part(report: Report, section: text.Section, anchor: str, drawn: Iterator[in
     verdict = worst(r.verdict for r in results)
     svg, caption = _picture(report, results, drawn)
     return Part(
-        anchor, section.title, verdict, _table(section.title, section), told[text.Kind.HINT],
+        anchor, section.title, verdict, _table(section.title, section),
+        [] if section.diagnosis and section.diagnosis.cause else told[text.Kind.HINT],
         told[text.Kind.NOTE] + told[text.Kind.OTHER], told[text.Kind.REPRODUCE],
         _details(report, results), sketches.margins_of(results), sketches.dials(results),
         densities.draws(results), svg, caption,
-        listing.source(results, report.measured.get("sources", {})),
+        listing.source(results, report.measured.get("sources", {})), _lead(section.diagnosis),
     )  # fmt: skip
+
+
+def _lead(found: Diagnosis | None) -> Lead | None:
+    if found is None:
+        return None
+    tested = found.cause.tested if found.cause else ""
+    return Lead(refuted.label(found), refuted.sentence(found), tested, found.place.reproduce)
 
 
 def _table(caption: str, section: text.Section) -> Table:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from montecarlo_brdf.errors import UserError
+from montecarlo_brdf.judge.diagnosis import Cause, Diagnosis, Part, Place
 from montecarlo_brdf.judge.finding import SCHEMA, Bound, Command, Finding, Report, Result, Verdict
 
 NUMBER = (int, float)
@@ -40,12 +41,13 @@ def read_report(path: Path) -> Report:
         command = Command(data.get("command", ""))
         results = [result_of(result) for result in data["results"]]
         settings, measured = (dict(data.get(name, {})) for name in ("settings", "measured"))
+        diagnosis = [_diagnosis(d, results) for d in data.get("diagnosis", [])]
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         sentence = f"{path} is not a report of brdf-check: its results are damaged"
         raise UserError(sentence) from error
     versions = data.get("versions")
     known = {str(k): str(v) for k, v in versions.items()} if isinstance(versions, dict) else {}
-    return Report(command, settings, results, measured, known)
+    return Report(command, settings, results, measured, known, diagnosis)
 
 
 def result_of(data: dict[str, Any]) -> Result:
@@ -54,6 +56,18 @@ def result_of(data: dict[str, Any]) -> Result:
     known = _known(data, RESULT)
     known.pop("verdict", None)  # that of its findings
     return Result(**{**known, "findings": [_finding(f) for f in known["findings"]]})
+
+
+def _diagnosis(data: dict[str, Any], results: list[Result]) -> Diagnosis:
+    place, cause = data["place"], data.get("cause")
+    of = (r for r in results if (r.model, r.check) == (data["model"], place["check"]))
+    some = [f for r in of if r.params == data["params"] for f in r.findings]
+    same = [f for f in some if (f.quantity, f.where) == (place["quantity"], place["where"])]
+    finding = same[0] if same else Finding(place["quantity"], place["where"], Verdict.FAIL)
+    there = Place(place["check"], finding, place["function"], place.get("line"),
+                  place["reproduce"])  # fmt: skip
+    known = Cause(Part(cause["part"]), cause["sentence"], cause["tested"]) if cause else None
+    return Diagnosis(data["model"], data["params"], there, known)
 
 
 def _finding(data: dict[str, Any]) -> Finding:

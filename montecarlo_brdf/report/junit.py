@@ -11,11 +11,24 @@ import math
 import re
 from collections import Counter
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from montecarlo_brdf.judge.finding import Finding, Policy, Report, Result, Verdict
-from montecarlo_brdf.report.text import case, explanation, grouped, origin, place, statement
+from montecarlo_brdf.report import refuted
+from montecarlo_brdf.report.text import (
+    case,
+    diagnosed,
+    explanation,
+    grouped,
+    origin,
+    place,
+    statement,
+)
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.judge.diagnosis import Diagnosis
 
 OUTCOMES = {Verdict.FAIL: "failure", Verdict.ERROR: "error", Verdict.SKIPPED: "skipped"}
 INCONCLUSIVE: dict[str | None, str] = {Policy.PASS: "skipped", Policy.FAIL: "failure"}
@@ -49,13 +62,14 @@ def _suite(
     for key in ("seed", "samples", "points"):
         value = str(report.settings.get(key, ""))
         SubElement(properties, "property", name=key, value=value)
+    found = diagnosed(report, group[0])
     for result, seconds in zip(group, times, strict=True):
         each = f"{seconds / max(1, len(result.findings)):.4f}"
         # a dot separates packages in a class name, so those of numbers and file names must go
         owner = f"{name.replace('.', '_')}.{result.check}" if result.model else result.check
         for finding, title in zip(result.findings, _titles(result), strict=True):
             test = SubElement(suite, "testcase", classname=owner, name=title, time=each)
-            _tell(test, result, finding, outcomes.get(finding.verdict))
+            _tell(test, result, finding, outcomes.get(finding.verdict), found)
     for key, number in _counts(suite).items():
         suite.set(key, str(number))
 
@@ -83,12 +97,16 @@ def _titles(result: Result) -> list[str]:
     return titles
 
 
-def _tell(test: Element, result: Result, finding: Finding, outcome: str | None) -> None:
+def _tell(
+    test: Element, result: Result, finding: Finding, outcome: str | None, found: Diagnosis | None
+) -> None:
     text = _legal("\n".join([statement(finding), *explanation(finding), *origin(result)]))
     if outcome:
         # readers show the message alone: of what was never evaluated only the note tells anything
         told_by_note = outcome == "skipped" or finding.samples is None
         message = finding.note or finding.verdict if told_by_note else statement(finding)
+        if blame := refuted.blame(found, finding):
+            message = f"{blame}; {message}"
         SubElement(test, outcome, type=finding.verdict, message=_legal(message)).text = text
     else:
         SubElement(test, "system-out").text = text

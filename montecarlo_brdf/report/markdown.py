@@ -2,12 +2,15 @@
 from __future__ import annotations
 
 import html
+from typing import TYPE_CHECKING
 
 from montecarlo_brdf.judge.finding import Finding, Report, Result
+from montecarlo_brdf.report import refuted
 from montecarlo_brdf.report.text import (
     BAD,
     bound,
     case,
+    diagnosed,
     explanation,
     grouped,
     loud,
@@ -16,6 +19,9 @@ from montecarlo_brdf.report.text import (
     statement,
     tally,
 )
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.judge.diagnosis import Diagnosis
 
 HEADER = ("check", "worst", "estimate", "bound", "where", "verdict")
 
@@ -26,11 +32,23 @@ def render(report: Report) -> str:
     parts = [f"## brdf-check {report.command}: {report.verdict.upper()}", tally(findings) or "-"]
     for group in grouped(report.results):
         heading = f"### {_cell(case(group[0]) or group[0].check)}"
-        parts.append("\n".join([heading, "", *_table(group)]))
-        parts += [_attention(r, f) for r in group for f in r.findings if f.verdict in BAD]
+        found = diagnosed(report, group[0])
+        parts += [heading, *([_diagnosis(found)] if found else []), "\n".join(_table(group))]
+        parts += [_attention(r, f) for r in group for f in r.findings
+                  if f.verdict in BAD and not f.follows]
+        if many := sum(bool(f.follows) for r in group for f in r.findings):
+            parts.append(f"{many} more findings follow from the cause.")
     rate = f"chance of a false alarm <= {report.level:.1g}"
     parts.append(f"seed {report.settings.get('seed')}; {rate}")
     return "\n\n".join(parts) + "\n"
+
+
+def _diagnosis(found: Diagnosis) -> str:
+    """The cause or the place, how it was tested, and the command."""
+    lines = [f"**{refuted.label(found)}:** {_cell(refuted.sentence(found))}"]
+    lines += [f"({_cell(found.cause.tested)})"] if found.cause else []
+    lines += [f"`{found.place.reproduce}`"] if found.place.reproduce else []
+    return "  \n".join(lines)
 
 
 def _table(group: list[Result]) -> list[str]:

@@ -47,6 +47,15 @@ def head(found: Diagnosis) -> list[str]:
     return [*told, f"  again {found.place.reproduce}"] if found.place.reproduce else told
 
 
+def blame(found: Diagnosis | None, finding: Finding) -> str:
+    """What a finding has to do with the diagnosis, for formats that show findings one by one."""
+    if found is None or found.cause is None or finding.verdict != Verdict.FAIL:
+        return ""
+    if finding.follows:
+        return f"follows from what is wrong with {finding.follows}: {found.cause.sentence}"
+    return f"cause: {found.cause.sentence}"
+
+
 def rows(group: Sequence[Result]) -> list[Row]:
     """Checks with a failure that follows from nothing else."""
     return [_row(r.check, some) for r in group if (some := _own(r))]

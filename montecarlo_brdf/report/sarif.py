@@ -5,14 +5,26 @@ from __future__ import annotations
 
 import json
 from pathlib import PurePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from montecarlo_brdf.judge.finding import Report, Result, Verdict
-from montecarlo_brdf.report.text import case, explanation, line_of, most_telling, statement
+from montecarlo_brdf.report import refuted
+from montecarlo_brdf.report.text import (
+    case,
+    diagnosed,
+    explanation,
+    line_of,
+    most_telling,
+    statement,
+)
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"  # code scanning wants a name of it
 LEVELS = {Verdict.ERROR: "error", Verdict.FAIL: "error"}
 LEVELS |= {Verdict.INCONCLUSIVE: "warning", Verdict.KNOWN: "note"}
+CONSEQUENCE = "note"  # of a cause that another result tells
+
+if TYPE_CHECKING:
+    from montecarlo_brdf.judge.diagnosis import Diagnosis
 
 
 def render(report: Report) -> str:
@@ -25,7 +37,7 @@ def render(report: Report) -> str:
     run = {
         "tool": {"driver": driver},
         "columnKind": "utf16CodeUnits",
-        "results": [_result(r, rules.index(r.check)) for r in told],
+        "results": [_result(r, rules.index(r.check), diagnosed(report, r)) for r in told],
     }
     log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
     return json.dumps(log, indent=1) + "\n"
@@ -39,13 +51,15 @@ def _rule(check: str) -> dict[str, Any]:
     return {"id": check, **{name: {"text": text} for name, text in told.items()}}
 
 
-def _result(result: Result, rule: int) -> dict[str, Any]:
+def _result(result: Result, rule: int, found: Diagnosis | None) -> dict[str, Any]:
     finding = most_telling(result)
-    words = [f"{case(result)} {result.check}: {statement(finding)}".strip(), *explanation(finding)]
+    cause = [blame] if (blame := refuted.blame(found, finding)) else []
+    words = [f"{case(result)} {result.check}: {statement(finding)}".strip(), *cause]
+    words += explanation(finding)
     return {
         "ruleId": result.check,
         "ruleIndex": rule,
-        "level": LEVELS[Verdict(result.verdict)],
+        "level": CONSEQUENCE if finding.follows else LEVELS[Verdict(result.verdict)],
         "message": {"text": "\n".join(words)},
         "partialFingerprints": {"case/v1": f"{case(result)} {result.check} {finding.quantity}"},
         **({"locations": [_location(result)]} if result.source else {}),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from montecarlo_brdf.judge.diagnosis import Part
 from montecarlo_brdf.judge.finding import SCHEMA, Bound, Verdict
 
 TEXT = {"type": "string"}
@@ -45,7 +46,35 @@ FINDING = _object(
     hint=_said(TEXT, "the likely cause"),
     reproduce=_said(TEXT, "a command line that gives the finding again"),
     draws=_said(OBJECT, "counts of draws in cells of equal probability, and the edges of these"),
+    follows={
+        "enum": [p.value for p in Part],
+        "description": "the part of the model whose cause it is a consequence of",
+    },
 )
+DIAGNOSIS = _object(
+    {
+        "model": TEXT,
+        "params": OBJECT,
+        "place": _object(
+            {
+                "check": TEXT, "quantity": TEXT, "where": OBJECT,
+                "function": _said(TEXT, "the function of the model that it is about"),
+                "reproduce": _said(TEXT, "a command line that shows it"),
+            },
+            line=_said(WHOLE, "where the function stands"),
+        ),
+    },
+    cause=_said(
+        _object(
+            {
+                "part": {"enum": [p.value for p in Part]},
+                "sentence": _said(TEXT, "what has to be changed"),
+                "tested": _said(TEXT, "what holds with it repaired"),
+            }
+        ),
+        "absent where no repair mends all that failed",
+    ),
+)  # fmt: skip
 RESULT = _object(
     {
         "model": TEXT, "params": OBJECT, "check": TEXT, "verdict": VERDICT,
@@ -66,7 +95,11 @@ REPORT: dict[str, Any] = {
             "settings": OBJECT,
             "results": {"type": "array", "items": {"$ref": "#/$defs/result"}},
             "measured": _said(OBJECT, "times and what else may differ between equal runs"),
-        }
+        },
+        diagnosis=_said(
+            {"type": "array", "items": {"$ref": "#/$defs/diagnosis"}},
+            "one for each model and parameter set that was refuted",
+        ),
     ),
-    "$defs": {"finding": FINDING, "result": RESULT},
+    "$defs": {"finding": FINDING, "result": RESULT, "diagnosis": DIAGNOSIS},
 }

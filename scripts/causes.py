@@ -1,0 +1,150 @@
+"""Causes named over the corpora of wrong and of honest models: right, places only, none, false.
+
+    python scripts/causes.py [--jobs 2] [--reports DIR] [NAME ...]
+
+A mutant's docstring says what was done to it ("cause:"), before anybody looks at what is said of it;
+tests/mutants/causes.toml says which words name that. A cause with other words counts as false. DIR
+keeps the reports of the runs, so that after a change to `diagnosis` only that is done again. Writes
+scripts/results/causes.json and docs/causes.md.
+"""
+from __future__ import annotations
+
+import argparse
+import concurrent.futures
+import json
+import re
+import statistics
+import time
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import montecarlo_brdf
+from montecarlo_brdf.cases.case import Case, searched
+from montecarlo_brdf.cases.look import look
+from montecarlo_brdf.diagnosis import diagnose
+from montecarlo_brdf.judge.finding import Report
+from montecarlo_brdf.report.json import read_report
+from montecarlo_brdf.verify.run import ANGLES
+
+ROOT = Path(__file__).parents[1]
+TESTS = ROOT / "tests"
+RESULTS = ROOT / "scripts" / "results" / "causes.json"
+PAGE = ROOT / "docs" / "causes.md"
+NONE = "none"
+CAUSES = tomllib.loads((TESTS / "mutants" / "causes.toml").read_text(encoding="utf-8"))
+OF_F = ("positivity", "reciprocity", "isotropy", "equality", "limits")
+
+
+def said(path: Path, what: str) -> str:
+    """The rest of a docstring's line that starts with `what`."""
+    found = re.findall(rf"^{what}: (.+)$", path.read_text(encoding="utf-8"), re.MULTILINE)
+    return str(found[0]) if found else NONE
+
+
+def reported(path: Path, kept: Path | None) -> Report:
+    """The report of the check meant for a mutant and of those that compile nothing but f."""
+    file = kept / f"{path.parent.name}-{path.stem}.json" if kept else None
+    if file and file.exists():
+        return read_report(file)
+    names = dict.fromkeys((*OF_F, said(path, "caught by")))
+    report = montecarlo_brdf.run(montecarlo_brdf.load(str(path)), names=[*names])
+    if file:
+        file.write_text(report.to_json(), encoding="utf-8")
+    return report
+
+
+def examined(path: Path, kept: Path | None) -> dict[str, Any]:
+    """What is said of one model."""
+    report = reported(path, kept)
+    model = montecarlo_brdf.load(str(path))
+    case = Case(model, model.parameters(), ANGLES, free=searched(model, {}))
+    look(case)  # which the checks have
+    if model.sample:
+        _ = look(case).draws
+    found = diagnose(case, report.results)
+    told: dict[str, Any] = {"verdict": str(report.verdict), "run": report.measured[PROCESSOR]}
+    if found is not None:
+        told |= {"seconds": round(found.seconds, 3), "place": found.place.check}
+    if found is not None and found.cause is not None:
+        told["cause"] = found.cause.sentence
+    return {k: round(v, 3) if isinstance(v, float) else v for k, v in told.items()}
+
+
+def judged(cause: str, row: dict[str, Any]) -> str:
+    """right, none or FALSE."""
+    said = row.get("cause")
+    if said is None:
+        return NONE
+    words = CAUSES.get(cause)
+    return "right" if words and re.search(words, said) else "FALSE"
+
+
+def page(rows: dict[str, Any]) -> str:
+    """The table as Markdown."""
+    mutants = {k: r for k, r in rows.items() if k.startswith("mutants/")}
+    others = {k: r for k, r in rows.items() if not k.startswith("mutants/")}
+    causes = {k: meant(TESTS / f"{k}.py") for k in mutants}
+    nameable = [k for k, cause in causes.items() if cause != NONE]
+    said = {k: judged(causes[k], r) for k, r in mutants.items()}
+    right = sum(said[k] == "right" for k in nameable)
+    false = sum(word == "FALSE" for word in said.values())
+    named = [k for k, r in others.items() if "cause" in r]
+    costs = [r["seconds"] for r in rows.values() if "seconds" in r]
+    shares = [r["seconds"] / r["run"] for r in rows.values() if "seconds" in r and r["run"] > 0]
+    lines = [
+        "# Causes named",
+        "",
+        "What `brdf-check run` names as the cause of the known-bad BRDFs of `tests/mutants`, against",
+        "what was done to them, and over the honest models of `tests/honest`. Written by",
+        "`python scripts/causes.py`; how a cause is found and tested: [diagnosis](diagnosis.md).",
+        "",
+        f"- {right} of {len(nameable)} mutants whose cause has a name are told the right one, "
+        f"{100 * right / max(1, len(nameable)):.0f} %;",
+        f"- {false} of {len(mutants)} mutants are told a false one;",
+        f"- {len(named)} of {len(others)} honest models are told any.",
+        f"- A diagnosis takes {statistics.median(costs):.2f} s of one processor (median; 90 % below "
+        f"{sorted(costs)[int(0.9 * len(costs))]:.2f} s, at most {max(costs):.2f} s), "
+        f"{100 * statistics.median(shares):.0f} % of the run before it (median); nothing where all "
+        "claims hold.",
+        "",
+        "| mutant | what was done | cause told | seconds |",
+        "|---|---|---|---|",
+    ]
+    for k, r in sorted(mutants.items()):
+        told = r.get("cause", "")
+        mark = "**FALSE** " if said[k] == "FALSE" else ""
+        seconds = f"{r['seconds']:.2f}" if "seconds" in r else r["verdict"]
+        cells = (k.split("/")[1], causes[k], f"{mark}{told}".replace("|", "\\|"), seconds)
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Examine what is asked for, or everything, then write the page."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--reports", type=Path)
+    options = parser.parse_args()
+    if options.reports:
+        options.reports.mkdir(parents=True, exist_ok=True)
+    paths = [p for f in ("mutants", "honest") for p in sorted((TESTS / f).glob("*.py"))]
+    paths = [p for p in paths if not p.stem.startswith("test_")]
+    chosen = [p for p in paths if not options.names or p.stem in options.names]
+    rows = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
+    with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
+        waiting = {pool.submit(examined, p, options.reports): p for p in chosen}
+        for done in concurrent.futures.as_completed(waiting):
+            path = waiting[done]
+            rows[f"{path.parent.name}/{path.stem}"] = done.result()
+            print(path.stem, done.result(), flush=True)
+    known = {f"{p.parent.name}/{p.stem}" for p in paths}
+    rows = {k: r for k, r in sorted(rows.items()) if k in known}
+    RESULTS.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    if set(rows) == known:
+        PAGE.write_text(page(rows), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
