@@ -2,10 +2,10 @@
 
     python scripts/causes.py [--jobs 2] [--reports DIR] [NAME ...]
 
-A mutant's docstring says what was done to it ("cause:"), before anybody looks at what is said of it;
-tests/mutants/causes.toml says which words name that. A cause with other words counts as false. DIR
-keeps the reports of the runs, so that after a change to `diagnosis` only that is done again. Writes
-scripts/results/causes.json and docs/causes.md.
+A mutant's docstring says what was done to it ("cause:"), before anybody looks at what is said of
+it; tests/mutants/causes.toml says which words name that. A cause with other words counts as false.
+DIR keeps the reports of the runs, so that after a change to `diagnosis` only that is done again.
+Writes scripts/results/causes.json and docs/causes.md.
 """
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ import concurrent.futures
 import json
 import re
 import statistics
-import time
 import tomllib
 from pathlib import Path
 from typing import Any

@@ -37,7 +37,8 @@ def _ggx(g: Geometry, a: float) -> Array:
 
 def _beckmann(g: Geometry, a: float) -> Array:
     c2 = np.maximum(g.normal_half**2, 1e-300)
-    return np.exp(-(1.0 - c2) / (c2 * a * a)) / (PI * a * a * c2 * c2)
+    found: Array = np.exp(-(1.0 - c2) / (c2 * a * a)) / (PI * a * a * c2 * c2)
+    return found
 
 
 def _lambda_ggx(cosine: Array, a: float) -> Array:
@@ -50,7 +51,8 @@ def _lambda_beckmann(cosine: Array, a: float) -> Array:
 
     tan = np.sqrt(np.maximum(1e-30, 1.0 - cosine * cosine)) / cosine
     x = 1.0 / (a * tan)
-    return 0.5 * (np.exp(-x * x) / (x * np.sqrt(PI)) - erfc(x))
+    found: Array = 0.5 * (np.exp(-x * x) / (x * np.sqrt(PI)) - erfc(x))
+    return found
 
 
 NORMALS: dict[str, tuple[Distribution, Lambda]] = {

@@ -81,7 +81,7 @@ class Laws:
     def of_f(self, divisor: Divisor | None = None) -> Failures:
         """Laws of f, of f divided."""
         failed: Failures = {}
-        for k, n in enumerate(self.at.nodes):
+        for k in range(len(self.at.nodes)):
             _add(failed, self._energy(k, divisor))
             _add(failed, self._symmetries(k, divisor))
         for t in self.at.targets:
@@ -113,14 +113,14 @@ class Laws:
         if over and Property.ENERGY not in disclaims:
             found[Law.ENERGY] = [Broken(value, k)]
         if Property.ENERGY not in disclaims:
-            back = np.where(np.isfinite(n.back), n.back, 0.0)
-            back, e = n.mean(n.g.cos_i * back / (divisor(n.g.swapped(), k) if divisor else 1.0))
+            finite = np.where(np.isfinite(n.back), n.back, 0.0)
+            back, e = n.mean(n.g.cos_i * finite / (divisor(n.g.swapped(), k) if divisor else 1.0))
             if back - SURE * e > 1.0 + ENERGY and e < 0.05 * back and not over:
                 found[Law.REVERSE] = [Broken(back, k)]
         due = self.at.declared[k]
-        if due is not None and error < 0.02 * max(value, 1e-9):
-            if abs(value - due) > SURE * error + 5e-4 * due:
-                found[Law.ALBEDO] = [Broken(value / due if due else math.inf, k)]
+        known = due is not None and error < 0.02 * max(value, 1e-9)
+        if due is not None and known and abs(value - due) > SURE * error + 5e-4 * due:
+            found[Law.ALBEDO] = [Broken(value / due if due else math.inf, k)]
         return found
 
     @property
@@ -178,9 +178,9 @@ class Laws:
         value, error = self.mass(k)
         off = value + rejected - 1.0
         luck = math.sqrt(rejected * (1.0 - rejected) / len(self.at.draws[k].many) + 1e-5)
-        if (off > 0.0 or resolved) and error < 0.05:
-            if abs(off) > SURE * (error + luck) + 0.01:
-                found[Law.MASS] = [Broken(off, k)]
+        known = (off > 0.0 or resolved) and error < 0.05
+        if known and abs(off) > SURE * (error + luck) + 0.01:
+            found[Law.MASS] = [Broken(off, k)]
         light = np.where(np.isfinite(n.f), n.f, 0.0) * n.g.cos_i * n.weight
         lost = float(light[n.pdf == 0.0].sum() / max(light.sum(), 1e-300))
         if lost > LOST:

@@ -11,6 +11,7 @@ import numpy as np
 from montecarlo_brdf.diagnosis.geometry import NONE, SHAPES, cost, monomial
 from montecarlo_brdf.diagnosis.laws import DENSITY, Failures, Law
 from montecarlo_brdf.diagnosis.repair import Repair, repair
+from montecarlo_brdf.diagnosis.stored import missing
 from montecarlo_brdf.diagnosis.words import constant, mistake, shape_said
 from montecarlo_brdf.judge.diagnosis import Part
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from montecarlo_brdf.diagnosis.geometry import Array
     from montecarlo_brdf.diagnosis.of_pdf import Known
     from montecarlo_brdf.diagnosis.stored import Draws
+    from montecarlo_brdf.estimate.density import Density
 
 FEWEST = 3  # places
 APART = 0.01  # of a probability: shares that differ by less are the same
@@ -43,17 +45,17 @@ def lobes(known: Known, failed: Failures) -> Iterator[Repair]:
         said = _shares(np.array([a for a, _ in rows]), np.array([b for _, b in rows])) \
             if len(rows) >= FEWEST else None
     if said:
-        yield repair(Part.PDF, *reversed(said), Part.WEIGHT)
+        yield repair(Part.PDF, said[1], said[0], Part.WEIGHT)
 
 
-def _of(d: Draws):  # type: ignore[no-untyped-def]
+def _of(d: Draws) -> Density:
     assert d.of
     return d.of
 
 
 def _fit(d: Draws) -> tuple[Array, bool] | None:
     """(c_k, whether pdf is their sum); None where they cannot be told apart."""
-    ok = np.isfinite(d.density) & np.isfinite(d.pdf) & (d.pdf > 0.0) & ~_of(d).missing
+    ok = np.isfinite(d.density) & np.isfinite(d.pdf) & (d.pdf > 0.0) & ~missing(_of(d))
     if ok.sum() < 10:
         return None
     a = _of(d).lobes[ok] / d.pdf[ok][:, None]

@@ -39,7 +39,9 @@ def densities(known: Known, failed: Failures) -> Iterator[Repair]:
     if pdf:
         said = f"sample draws {draws}, pdf is that of {pdf}"
         yield repair(Part.PDF, 2.4 if plain else 3.0, said, Part.WEIGHT)
-    elif there := next((n for n, v in table.items() if n != draws and _is_pdf(known, v, bad)), None):
+        return
+    others = (n for n, v in table.items() if n != draws and _is_pdf(known, v, bad))
+    if there := next(others, None):
         said = f"sample draws {draws}, pdf is that of {there} at {len(bad)} of " \
                f"{len(known.index)} cases: look at its branches"
         yield repair(Part.PDF, 4.0, said, Part.WEIGHT)

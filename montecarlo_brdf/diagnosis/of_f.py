@@ -221,11 +221,11 @@ def reciprocity(laws: Laws, failed: Failures) -> Iterator[Repair]:
         cs = [constant(q, EXACT, MOST) for q in qs]
         if all(c is not None and abs(c - 1.0) < EXACT for c in cs):
             one = list(_tried(laws, 2.0, f"a cosine of one direction alone: {said}",
-                              lambda g, k: g.cos_i**sign))
+                              lambda g, k, x=sign: g.cos_i**x))  # type: ignore[misc]
             other, top, bottom = ("o", "i", "o") if sign == 1 else ("i", "o", "i")
             yield from one or _tried(
                 laws, 3.0, f"a cosine of one direction alone: f(wo, wi)/f(wi, wo) = "
-                f"cos_{top}/cos_{bottom} exactly", lambda g, k: g.cos_o ** (-sign))
+                f"cos_{top}/cos_{bottom} exactly", lambda g, k, x=sign: g.cos_o ** (-x))  # type: ignore[misc]
             return
     kinds = [_cycle(laws, k) for k in range(len(pairs))]
     factor_alone, summand = (all(k[i] for k in kinds) for i in (0, 1))
@@ -297,10 +297,10 @@ def by_pdf(laws: Laws, failed: Failures) -> Iterator[Repair]:
     rows = [(laws.due(d), d.g) for d in draws]
     sets = [at.spots[k].p for k in laws.usable]
     found = factor(rows, sets, at.names, CLOSE, MOST, [NONE])
-    if found and not found.each and found.word.scale:
-        if named := mistake(found.constant, NAMED):
-            said = f"{named}: f cos/pdf = {found} for all draws"
-            yield from _tried(laws, 2.0, said, _by(laws, Factor(found.constant)))
+    scaled = found is not None and not found.each and found.word.scale
+    if found and scaled and (named := mistake(found.constant, NAMED)):
+        said = f"{named}: f cos/pdf = {found} for all draws"
+        yield from _tried(laws, 2.0, said, _by(laws, Factor(found.constant)))
 
 
 def identified(laws: Laws, failed: Failures) -> Iterator[Repair]:

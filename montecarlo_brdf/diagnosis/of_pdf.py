@@ -64,7 +64,7 @@ def folded(known: Known, failed: Failures) -> Iterator[Repair]:
     """Draws below the horizon folded up: pdf counts one of the two that give a direction."""
     if Law.DENSITY not in failed or any(d.rejected for d in known.draws):
         return
-    several = [float(np.mean(d.of.several)) for d in known.draws if d.of]
+    several = [float(np.mean(d.of.roots.max(axis=1) > 1)) for d in known.draws if d.of]
     if np.mean(several) > 0.02:
         up = [_nearly(d.moved[BELOW], d) for d in known.draws]
         single = all(len(d.of.shares) == 1 for d in known.draws if d.of)
@@ -86,33 +86,36 @@ def _nearly(other: Array, d: Draws) -> float:
 
 
 def _best(d: Draws) -> Array:
-    """How far pdf is from 1/J of the best root."""
+    """How far pdf is from what one of at most two roots adds to the density."""
     assert d.of
-    every = [[j for piece in roots for j in piece] for roots in d.of.roots]
-    return np.array([
-        min((abs(p * j - 1.0) for j in some), default=math.inf)
-        for p, some in zip(d.pdf, every, strict=True)
-    ])
+    with np.errstate(all="ignore"):
+        own, rest = d.pdf / d.of.own, d.pdf / (d.of.density - d.of.own)
+        off = np.where(d.of.roots.sum(axis=1) > 1, np.fmin(abs(own - 1.0), abs(rest - 1.0)),
+                       abs(own - 1.0))  # fmt: skip
+    return np.where(np.isfinite(off), off, math.inf)
 
 
 def _one_root_each(known: Known) -> bool:
-    """Whether pdf is the sum over lobes of one root's density, where it deviates, too."""
-    rows = []
+    """Whether pdf counts, of two roots in the lobe that was drawn, one alone, where it is wrong."""
+    rows: list[tuple[bool, bool]] = []
     for d in known.draws:
-        if d.of is None or len(d.of.shares) < 2 or not (d.of.several.mean() > 0.0):
+        if d.of is None or len(d.of.shares) < 2:
             continue
-        for i in np.flatnonzero(np.isfinite(d.density) | d.of.several):
-            options = [
-                [q / j for j in js if j > 0.0] or [0.0]
-                for q, js in zip(d.of.shares, d.of.roots[i], strict=True)
-            ]
-            sums = [sum(o) for o in itertools.product(*options)]
-            off = abs(d.pdf[i] / d.density[i] - 1.0) > 2.0 * DENSITY
-            rows.append((off, min(abs(s / d.pdf[i] - 1.0) for s in sums) < 2.0 * DENSITY))
+        lobe = np.argmax([piece.within(d.u) for piece in d.of.pieces], axis=0)
+        each = np.arange(len(d.u))
+        part = d.of.lobes[each, lobe] * d.of.shares[lobe]
+        others = d.of.roots.sum(axis=1) - d.of.roots[each, lobe]
+        single = others <= len(d.of.shares) - 1
+        with np.errstate(all="ignore"):
+            off = np.abs(d.pdf / d.of.density - 1.0)
+            options = [d.of.density, d.of.density - d.of.own, d.of.density - part + d.of.own]
+            least = np.min([np.abs(x / d.pdf - 1.0) for x in options], axis=0)
+        ok = np.isfinite(off) & single
+        rows += list(zip(off[ok] > 2.0 * DENSITY, least[ok] < 2.0 * DENSITY, strict=True))
     if not rows:
         return False
-    off, fits = np.array(rows, dtype=bool).T
-    return bool(off.sum() > 10 and fits.mean() > 0.75 and fits[off].mean() > 0.4)
+    bad, fits = np.array(rows, dtype=bool).T
+    return bool(bad.sum() > 10 and fits.mean() > 0.75 and fits[bad].mean() > 0.4)
 
 
 def rejected(known: Known, failed: Failures) -> Iterator[Repair]:
@@ -191,7 +194,8 @@ def _gap(known: Known) -> str:
         gaps.append(float(np.diff(np.append(phi, phi[0] + 2.0 * np.pi)).max()))
     wide = [x for x in gaps if x > 16.0 * np.pi / len(known.draws[0].many)]
     if len(wide) >= 0.8 * len(gaps):
-        return f"the azimuths leave a gap of about {math.degrees(float(np.median(wide))):.0f} degrees"
+        degrees = math.degrees(float(np.median(wide)))
+        return f"the azimuths leave a gap of about {degrees:.0f} degrees"
     phi = np.concatenate([np.arctan2(d.many[:, 1], d.many[:, 0]) for d in known.draws])
     phi = np.sort(phi[np.isfinite(phi)] % (2.0 * np.pi))
     small = np.diff(np.append(phi, phi[0] + 2.0 * np.pi)).max() > 28.0 * np.pi / len(phi)
@@ -236,7 +240,8 @@ def azimuth(known: Known, failed: Failures) -> Iterator[Repair]:
 # parameters ---------------------------------------------------------------------------------------
 
 MAPS: dict[str, Callable[[float], float]] = {
-    "{}^2": lambda v: v * v, "sqrt({})": lambda v: math.sqrt(max(v, 0.0)), "{} + 1": lambda v: v + 1.0,
+    "{}^2": lambda v: v * v, "sqrt({})": lambda v: math.sqrt(max(v, 0.0)),
+    "{} + 1": lambda v: v + 1.0,
     "{} - 1": lambda v: max(v - 1.0, 0.0), "{} + 2": lambda v: v + 2.0, "2 {}": lambda v: 2.0 * v,
     "{}/2": lambda v: 0.5 * v, "{}^4": lambda v: v**4,
 }  # fmt: skip
@@ -277,7 +282,9 @@ def _of(p: Parameters, name: str) -> float:
     return float(getattr(p, name))
 
 
-def _deviations(known: Known, sets: list[Parameters], index: list[int] | None = None) -> list[float]:
+def _deviations(
+    known: Known, sets: list[Parameters], index: list[int] | None = None
+) -> list[float]:
     """How far pdf with other parameters is from the density of the draws."""
     index = list(range(len(known.draws))) if index is None else index
     m = known.at.model

@@ -71,7 +71,7 @@ def draws(laws: Laws, failed: Failures) -> Iterator[Repair]:
     normalise them."""
     at = look(laws.at.case)
     w, weights = at.draws
-    finite = np.isfinite(w).all(axis=1)
+    finite: Flags = np.isfinite(w).all(axis=1)
     length = np.sqrt(np.sum(np.where(finite[:, None], w, 0.0) ** 2, axis=1))
     above = finite & (w[:, 2] > 0.0)
     odd = above & (np.abs(length - 1.0) > UNIT)
@@ -79,7 +79,8 @@ def draws(laws: Laws, failed: Failures) -> Iterator[Repair]:
     if odd.any() and finite.all():
         far = float(np.max(np.abs(length - 1.0)[odd]))
         share = 100.0 * float(odd[above].mean())
-        said = f"sample: directions are not of unit length (by up to {far:.2g}, {share:.0f} % of them)"
+        said = "sample: directions are not of unit length"
+        said += f" ({share:.0f} % of them, by up to {far:.2g})"
         yield repair(Part.DRAWS, 0.0, said, Part.PDF, Part.WEIGHT)
     elif not finite.all():
         found = region(at, ~finite, names, of_wo=True)

@@ -28,7 +28,7 @@ def on_average(laws: Laws) -> bool:
     for d in some:
         assert d.of
         with np.errstate(all="ignore"):
-            ratio = d.of.weight * d.density / (d.f * d.g.cos_i)
+            ratio = d.of.mean_weight * d.density / (d.f * d.g.cos_i)
         ratio = ratio[np.isfinite(ratio)]
         if len(ratio) > 8 and np.quantile(np.abs(ratio - 1.0), 0.9) > 3.0 * DENSITY:
             return False

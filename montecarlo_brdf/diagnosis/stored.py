@@ -18,7 +18,7 @@ from montecarlo_brdf.cases.case import Case, Parameters, search_range
 from montecarlo_brdf.cases.parameters import between
 from montecarlo_brdf.diagnosis.ask import asked, drawn
 from montecarlo_brdf.diagnosis.geometry import Geometry, geometry, turned
-from montecarlo_brdf.diagnosis.roots import Density, densities
+from montecarlo_brdf.estimate.density import Density, density
 from montecarlo_brdf.estimate.probe import number_from
 from montecarlo_brdf.judge.finding import Finding, Result, Verdict
 from montecarlo_brdf.loading import load
@@ -204,7 +204,8 @@ def _sets(case: Case) -> tuple[list[str], list[Parameters]]:
         t = [0.06 + 0.88 * ((0.37 + k * GOLDEN[(i + len(ranges)) % 7]) % 1.0)
              for i in range(len(ranges))]
         less = [1.0 - LESS * ((0.31 + k * GOLDEN[(i + 3) % 7]) % 1.0) for i in range(len(fixed))]
-        inside = {n: float(between(*ends, x)) for (n, ends), x in zip(ranges.items(), t)}
+        places = zip(ranges.items(), t, strict=True)
+        inside = {n: float(between(*ends, x)) for (n, ends), x in places}
         inside |= {n: getattr(base, n) * x for n, x in zip(fixed, less, strict=True)}
         sets.append(base._replace(**inside))
     return [*ranges, *fixed], sets
@@ -359,7 +360,7 @@ def _draws(model: Model, spots: Sequence[Spot]) -> list[Draws]:
     picks = [np.flatnonzero(np.isfinite(w).all(axis=1) & (w[:, 2] > 1e-3))[:DRAWS] for w, _ in many]
     w = [a[0][k] for a, k in zip(many, picks, strict=True)]
     u = [a[k] for a, k in zip(us, picks, strict=True)]
-    of = densities(model, list(spots), u, w)
+    of = [_density(model, s, a) for s, a in zip(spots, u, strict=True)]
     there = [(s.p, s.wo, x) for s, x in zip(spots, w, strict=True)]
     f = _each(model, model.f, there)
     nothing = [np.full(len(x), np.nan) for x in w]
@@ -369,15 +370,25 @@ def _draws(model: Model, spots: Sequence[Spot]) -> list[Draws]:
     found = []
     for k, s in enumerate(spots):
         d = of[k]
-        density = nothing[k] if d is None else d.density.copy()
+        due = nothing[k] if d is None else d.density.copy()
         if d is not None:
-            beyond = d.missing & (pdf[k] > density)
-            density[beyond] = np.nan
+            due[missing(d) & (pdf[k] > due)] = np.nan
         found.append(
             Draws(geometry(s.wo, w[k]), u[k], many[k][1][picks[k]], f[k], pdf[k], swapped[k],
-                  moved[k], density, d, *many[k])
+                  moved[k], due, d, *many[k])
         )  # fmt: skip
     return found
+
+
+def _density(model: Model, s: Spot, u: Array) -> Density | None:
+    """The density of the draws, if it is known."""
+    found = density(model, s.p, from_degrees(s.theta, s.phi), u) if len(u) else None
+    return found if found and found.unknown is None else None
+
+
+def missing(d: Density) -> Any:
+    """Draws for which a piece has no root: their density is a lower bound."""
+    return (d.roots == 0).any(axis=1)
 
 
 def _each(model: Model, function: Any, rows: Sequence[Any]) -> list[Array]:

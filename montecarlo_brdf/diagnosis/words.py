@@ -6,7 +6,6 @@ same word, at every place stored does.
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -77,30 +76,39 @@ ONE = Word()
 def vocabulary(names: Sequence[str]) -> Iterator[Word]:
     """p, p^2, 1/p, 1 - p, p q, (n + a)/(n + b), q (n + a)/(n + b)."""
     for k in names:
-        get = functools.partial(_value, k)
-        yield Word(k, get, scale=True)
-        yield Word(f"{k}^2", lambda p, g=get: g(p) ** 2)
-        yield Word(f"1/{k}", lambda p, g=get: _over(1.0, g(p)))
-        yield Word(f"(1 - {k})", lambda p, g=get: 1.0 - g(p))
+        yield Word(k, _mapped(k, lambda v: v), scale=True)
+        yield Word(f"{k}^2", _mapped(k, lambda v: v * v))
+        yield Word(f"1/{k}", _mapped(k, lambda v: _over(1.0, v)))
+        yield Word(f"(1 - {k})", _mapped(k, lambda v: 1.0 - v))
         for a in (1, 2):
-            yield Word(f"1/({k} + {a})", lambda p, g=get, a=a: _over(1.0, g(p) + a))
+            yield Word(f"1/({k} + {a})", _mapped(k, _quotient(None, a)))
         for a, b in itertools.permutations(SHIFTS, 2):
-            def quotient(p: Parameters, g=get, a=a, b=b) -> float:  # type: ignore[no-untyped-def]
-                return _over(g(p) + a, g(p) + b)
-            text = f"{_plus(k, a)}/{_plus(k, b)}"
-            yield Word(text, quotient)
+            text, value = f"{_plus(k, a)}/{_plus(k, b)}", _mapped(k, _quotient(a, b))
+            yield Word(text, value)
             for s in (s for s in names if s != k):
-                yield Word(f"{s} {text}", lambda p, s=s, q=quotient: _value(s, p) * q(p))
+                yield Word(f"{s} {text}", _product(_mapped(s, lambda v: v), value))
     for a_, b_ in itertools.combinations(names, 2):
-        yield Word(f"{a_} {b_}", lambda p, a=a_, b=b_: _value(a, p) * _value(b, p))
+        yield Word(f"{a_} {b_}", _product(*(_mapped(k, lambda v: v) for k in (a_, b_))))
+
+
+Value = Callable[[Parameters], float]
+
+
+def _mapped(name: str, f: Callable[[float], float]) -> Value:
+    return lambda p: f(float(getattr(p, name)))
+
+
+def _product(one: Value, two: Value) -> Value:
+    return lambda p: one(p) * two(p)
+
+
+def _quotient(a: int | None, b: int) -> Callable[[float], float]:
+    """(v + a)/(v + b), or 1/(v + b)."""
+    return lambda v: _over(1.0 if a is None else v + a, v + b)
 
 
 def _plus(name: str, shift: int) -> str:
     return f"({name} + {shift})" if shift else f"({name})"
-
-
-def _value(name: str, p: Parameters) -> float:
-    return float(getattr(p, name))
 
 
 def _over(a: float, b: float) -> float:
