@@ -62,7 +62,7 @@ def examined(path: Path, kept: Path | None) -> dict[str, Any]:
     if model.sample:
         _ = look(case).draws
     found = diagnose(case, report.results)
-    told: dict[str, Any] = {"verdict": str(report.verdict), "run": report.measured[PROCESSOR]}
+    told: dict[str, Any] = {"verdict": str(report.verdict)}
     if found is not None:
         told |= {"seconds": round(found.seconds, 3), "place": found.place.check}
     if found is not None and found.cause is not None:

@@ -42,7 +42,7 @@ COMPARE = ("checks", "cli", "scene", "truth")
 #: What a model may use: a user's own file has exactly the form of a built-in one.
 FOR_MODELS = {"bits", "models", "sampling.warps", "special", "vectors"}
 #: What a report is made from; a picture or a text needs nothing else.
-FOR_REPORTS = ("errors.", "judge.finding.", "report.")
+FOR_REPORTS = ("errors.", "judge.diagnosis.", "judge.finding.", "report.")
 #: package -> where it may be imported
 KEPT_IN = {
     "click": ("cli/",),

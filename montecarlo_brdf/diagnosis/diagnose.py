@@ -87,6 +87,8 @@ def _chosen(examined: Examined, failed: Refuted) -> Repair | None:
 def _mended(examined: Examined, r: Repair, result: Result, f: Finding) -> bool:
     if not r.mends & set(blamed(result.check, f)):
         return False
+    if r.part is Part.VALUES and result.check != "positivity":
+        return not math.isfinite(f.value)
     seen = SEEN.get(result.check)
     of_f = r.part is Part.F and seen is not None
     return not of_f or bool(seen & set(examined.failed))  # type: ignore[operator]

@@ -49,20 +49,20 @@ def region(at: Look, bad: Flags, names: list[str], of_wo: bool = False) -> Regio
         return Region("everywhere", True) if bad.all() else None
     g = geometry(at.points.wo, at.points.wi)
     within, said = np.ones(len(bad), dtype=bool), list[str]()
-    for name, inside in _special(at, g, names, of_wo):
-        if (bad & ~inside).any() or not (within & ~inside).any() or bad[within].all():
-            continue
-        within = within & inside
-        said.append(name)
+    for places in (_directions(g, of_wo), _of_parameters(at, names)):
+        for name, inside in places:
+            narrower = (within & ~inside).any() and not bad[within].all()
+            if narrower and not (bad & ~inside).any():
+                within = within & inside
+                said.append(name)
+                break
     if said and bad[within].mean() > SOME:
         return Region(" and ".join(said), bool(bad[within].all()))
     return _threshold(at, g, bad, names, of_wo)
 
 
-def _special(
-    at: Look, g: Geometry, names: list[str], of_wo: bool
-) -> Iterator[tuple[str, Flags]]:
-    """Places that code treats apart: exact ones first."""
+def _directions(g: Geometry, of_wo: bool) -> Iterator[tuple[str, Flags]]:
+    """Directions that code treats apart."""
     yield "wo is the normal (normal incidence)", _normal(g.wo)
     if not of_wo:
         yield "wi is the normal (normal incidence)", _normal(g.wi)
@@ -72,7 +72,6 @@ def _special(
         yield "x is 0", np.minimum(abs(g.wo[:, 0]), abs(g.wi[:, 0])) < SAME
         mirror = g.wo * np.array([-1.0, -1.0, 1.0])
         yield "wi is wo's mirror direction", np.linalg.norm(mirror - g.wi, axis=1) < NEAR
-    yield from _of_parameters(at, names)
 
 
 def _normal(w: Array) -> Flags:
@@ -80,6 +79,7 @@ def _normal(w: Array) -> Flags:
 
 
 def _of_parameters(at: Look, names: list[str]) -> Iterator[tuple[str, Flags]]:
+    """Ends of ranges, 0 and 1, equal parameters."""
     fields = at.case.one._fields
     columns = {n: at.points.table[:, fields.index(n)] for n in names}
     for n, v in columns.items():

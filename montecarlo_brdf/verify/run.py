@@ -39,7 +39,6 @@ from montecarlo_brdf.verify.supervision import Deadline, supervised
 ANGLES = (0.0, 45.0, 80.0)
 SAMPLES = 1 << 20
 REACH = 1 << 24  # of a claim that these leave open, where it is known that so many decide it
-STEEPEST = 89.999  # degrees: of a viewer that a command names
 GRACE = 1.0  # seconds that a claim may go on after --max-time
 #: what holds or does not, whatever is allowed of values
 LAWS = (Property.RECIPROCITY, Property.ISOTROPY, Property.POSITIVITY)
@@ -276,7 +275,7 @@ def _again(case: Case, settings: Settings, place: Place) -> str:
         words += ["-p", f"{key}={'/'.join(map(_short, values))}"] if changed else []
     theta = where.get("theta_o_deg", where.get("theta_i_deg"))
     if isinstance(theta, float | int):
-        words += ["--theta-o", _short(min(float(theta), STEEPEST))]
+        words += ["--theta-o", _short(min(float(theta), 89.9999))]  # commands take less than 90
         phi = where.get("phi_o_deg", where.get("phi_i_deg", case.phi_o_deg))
         words += ["--phi-o", _short(phi)] if phi and not model.isotropic else []
     words += settings.options(SAMPLES)
