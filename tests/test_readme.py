@@ -59,7 +59,7 @@ def test_all_code_of_a_page_is_run(name: str) -> None:
 def test_the_page_on_models_is_fresh(script: ModuleType) -> None:
     """If this fails: python scripts/update_readme.py"""
     page = (ROOT / "docs" / "own_model.md").read_text(encoding="utf-8")
-    assert script.same(script.updated(page), page) and "symmetric but for a factor" in page
+    assert script.same(script.updated(page), page) and "reciprocal but for a factor" in page
 
 
 def test_an_old_block_is_seen(script: ModuleType) -> None:

@@ -11,7 +11,7 @@ import click
 from montecarlo_brdf.cli import _options
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.judge.finding import Command, Finding, Report, Result, Verdict
-from montecarlo_brdf.report.json import result_of
+from montecarlo_brdf.report.json import diagnosis_of, result_of
 from montecarlo_brdf.verify.question import INTERRUPTED, failed, merged, shown_parameters
 
 if TYPE_CHECKING:
@@ -143,7 +143,9 @@ def _report(
         return Report(command, {}, results, {"seconds": 0.0, INTERRUPTED: False})
     measured = {"seconds": answer["seconds"], "seconds_of_results": answer["times"]}
     results = [result_of(result) for result in answer["results"]]
-    return Report(command, answer["settings"], results, {**measured, INTERRUPTED: False})
+    found = [diagnosis_of(d, results) for d in answer.get("diagnosis", [])]
+    measured[INTERRUPTED] = False
+    return Report(command, answer["settings"], results, measured, diagnosis=found)
 
 
 def refuse(sweep: Sweep, **others: object) -> None:

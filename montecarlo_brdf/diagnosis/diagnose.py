@@ -13,6 +13,7 @@ from montecarlo_brdf.diagnosis.laws import Law
 from montecarlo_brdf.diagnosis.repair import Repair
 from montecarlo_brdf.judge.diagnosis import Cause, Diagnosis, Part, Place
 from montecarlo_brdf.judge.finding import Bound, Finding, Result, Verdict
+from montecarlo_brdf.sampling.directions import Sampler
 
 Refuted = list[tuple[Result, Finding]]
 #: check -> the parts whose repair may mend it, the one that it is about first
@@ -37,8 +38,6 @@ SEEN = {
 #: part -> the function that is looked at
 FUNCTIONS = {Part.VALUES: "f", Part.F: "f", Part.PDF: "pdf", Part.WEIGHT: "sample",
              Part.DRAWS: "sample"}  # fmt: skip
-#: what draws at fault spoil: means by the model's own sampler
-OWN = "own"
 WEIGHTS, FAULTS = "|weight/(f cos/pdf) - 1|", "drawn directions at fault"
 
 
@@ -57,7 +56,7 @@ def blamed(check: str, f: Finding) -> tuple[Part, ...]:
         return (Part.WEIGHT, Part.PDF, Part.DRAWS, Part.VALUES)
     if f.quantity == FAULTS:
         return (Part.DRAWS, Part.PDF, Part.WEIGHT)
-    if f.estimator == OWN and parts[0] is Part.F and check != "energy":
+    if f.estimator == Sampler.OWN and parts[0] is Part.F and check != "energy":
         return (*parts, Part.PDF, Part.WEIGHT, Part.DRAWS)
     return parts
 

@@ -115,6 +115,10 @@ class Laws:
         if Property.ENERGY not in disclaims:
             finite = np.where(np.isfinite(n.back), n.back, 0.0)
             back, e = n.mean(n.g.cos_i * finite / (divisor(n.g.swapped(), k) if divisor else 1.0))
+            if spot.reverse is not None:
+                plain = n.mean(n.g.cos_i * finite)[0]
+                moved = back / plain if divisor and plain > 0.0 else 1.0
+                back, e = spot.reverse * moved, KNOWN_ERROR
             if back - SURE * e > 1.0 + ENERGY and e < 0.05 * back and not over:
                 found[Law.REVERSE] = [Broken(back, k)]
         due = self.at.declared[k]

@@ -165,7 +165,7 @@ def _factor_said(known: Known, found: Factor) -> str:
     if cost(found.exponents):
         rest = found._replace(exponents=(0, 0, 0, 0))
         left = "" if rest.plain and abs(c - 1.0) < DENSITY else f", and a factor {rest}"
-        left += f" ({named})" if named and left else ""
+        left = f", and {named}" if named and rest.plain else left
         return f"pdf: {shape_said(found.exponents)}{left}"
     return f"pdf: normalisation: {found} times the density of the draws"
 

@@ -23,6 +23,7 @@ from montecarlo_brdf.estimate.probe import number_from
 from montecarlo_brdf.judge.finding import Finding, Result, Verdict
 from montecarlo_brdf.loading import load
 from montecarlo_brdf.model import Model
+from montecarlo_brdf.sampling.directions import Sampler
 from montecarlo_brdf.vectors import from_degrees
 
 if TYPE_CHECKING:
@@ -42,13 +43,14 @@ LAST = 89.9  # degrees
 
 
 class Spot(NamedTuple):
-    """A place: parameters and a viewer. `albedo`: what a check measured there, and by what."""
+    """A place: parameters and a viewer. `albedo`, `reverse`: what a check measured there."""
 
     p: Parameters
     theta: float
     phi: float
     found: bool = False
     albedo: float | None = None
+    reverse: float | None = None
     own: bool = False  # measured by the model's own draws
 
     @property
@@ -240,10 +242,11 @@ def _spot(case: Case, check: str, f: Finding) -> Spot | None:
     phi = f.where.get("phi_o_deg", f.where.get("phi_i_deg", 0.0))
     fields = {case.model.labels.get(n, n): n for n in case.one._fields}
     changed = {fields[k]: float(v) for k, v in f.where.items() if k in fields}
-    first = check in ("energy", "furnace") and f.quantity in ("worst A <= 1", "A <= 1")
-    known = f.value if first and math.isfinite(f.value) else None
-    own = f.estimator == "own"
-    return Spot(case.one._replace(**changed), min(float(theta), LAST), float(phi), True, known, own)
+    known = f.value if check in ("energy", "furnace") and math.isfinite(f.value) else None
+    a = known if f.quantity in ("worst A <= 1", "A <= 1") else None
+    r = known if f.quantity == "worst R <= 1" else None
+    p, own = case.one._replace(**changed), f.estimator == Sampler.OWN
+    return Spot(p, min(float(theta), LAST), float(phi), True, a, r, own)
 
 
 # nodes --------------------------------------------------------------------------------------------

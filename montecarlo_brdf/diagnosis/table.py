@@ -19,7 +19,7 @@ OF_PDF: tuple[OfPdf, ...] = (
     of_pdf.rejected, of_pdf.factors, of_pdf.folded, of_pdf.moved, of_pdf.parameters, lobes,
     of_densities.densities, of_pdf.clamped, of_pdf.fitted, of_pdf.uncovered, of_pdf.azimuth,
 )  # fmt: skip
-ENOUGH = 3.0  # penalty of a repair of pdf after which dearer ones are not looked for
+ENOUGH = 2.4  # penalty of a repair of pdf after which dearer ones are not looked for
 TABLE: dict[Part, tuple[Find, ...]] = {
     Part.VALUES: (of_values.regions,),
     Part.DRAWS: (of_values.draws,),

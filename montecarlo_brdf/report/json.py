@@ -41,7 +41,7 @@ def read_report(path: Path) -> Report:
         command = Command(data.get("command", ""))
         results = [result_of(result) for result in data["results"]]
         settings, measured = (dict(data.get(name, {})) for name in ("settings", "measured"))
-        diagnosis = [_diagnosis(d, results) for d in data.get("diagnosis", [])]
+        diagnosis = [diagnosis_of(d, results) for d in data.get("diagnosis", [])]
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         sentence = f"{path} is not a report of brdf-check: its results are damaged"
         raise UserError(sentence) from error
@@ -58,7 +58,8 @@ def result_of(data: dict[str, Any]) -> Result:
     return Result(**{**known, "findings": [_finding(f) for f in known["findings"]]})
 
 
-def _diagnosis(data: dict[str, Any], results: list[Result]) -> Diagnosis:
+def diagnosis_of(data: dict[str, Any], results: list[Result]) -> Diagnosis:
+    """The diagnosis of plain data, and of the results that it is about."""
     place, cause = data["place"], data.get("cause")
     of = (r for r in results if (r.model, r.check) == (data["model"], place["check"]))
     some = [f for r in of if r.params == data["params"] for f in r.findings]

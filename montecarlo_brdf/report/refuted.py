@@ -103,7 +103,7 @@ def rest(group: Sequence[Result]) -> Iterator[str]:
     many = sum(1 for r in group for f in r.findings if f.follows)
     if many:
         named = f", also of {', '.join(follow)}" if follow else ""
-        yield f"{many} finding{'s' if many > 1 else ''} follow (-v){named}"
+        yield f"{many} finding{'s follow' if many > 1 else ' follows'} (-v){named}"
     known = {Verdict.ERROR: "error", Verdict.INCONCLUSIVE: "open", Verdict.PASS: "held",
              Verdict.KNOWN: "known"}  # fmt: skip
     told = [f"{word}: {', '.join(others[v])}" for v, word in known.items() if v in others]

@@ -67,12 +67,13 @@ def joined(reports: Mapping[str, Report]) -> Report:
     whole = _one(list(reports.values()), ordered[0][0] if ordered else first)
     whole.measured.pop("seconds_of_results", None)  # they are in the order of parts
     return Report(whole.command, whole.settings, [r for _, results in ordered for r in results],
-                  whole.measured, whole.versions)  # fmt: skip
+                  whole.measured, whole.versions, whole.diagnosis)  # fmt: skip
 
 
 def _one(reports: Sequence[Report], first: Report) -> Report:
     one = merged(reports)
-    return Report(one.command, first.settings, one.results, one.measured, first.versions)
+    return Report(one.command, first.settings, one.results, one.measured, first.versions,
+                  one.diagnosis)  # fmt: skip
 
 
 def _check_same(first_name: str, first: Report, name: str, report: Report) -> None:

@@ -63,6 +63,7 @@ def _answer(task: Task, threads: int | None) -> dict[str, Any]:
     answer = {
         "settings": found["settings"], "results": found["results"],
         "times": report.measured.get("seconds_of_results", []),
+        "diagnosis": found.get("diagnosis", []),
     }  # fmt: skip
     named: dict[str, Any] = _here(answer, task.files, paths)
     return {**named, "seconds": time.perf_counter() - began}
