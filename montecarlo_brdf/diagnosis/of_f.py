@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 MOST = 0.98
 CLOSE = 1e-6
 NAMED = 1e-5
+MANY = 0.75  # of the places
 
 
 def _tried(
@@ -353,7 +354,9 @@ def two_terms(laws: Laws, failed: Failures) -> Iterator[Repair]:
 
 
 def undeclared(laws: Laws, failed: Failures) -> Iterator[Repair]:
-    """Only isotropy fails: the model is not isotropic."""
-    if set(failed) == {Law.ISOTROPY}:
+    """Only isotropy fails, nearly everywhere: the model is not isotropic. At a few places it is
+    no more than a place."""
+    spots = {b.spot for b in failed.get(Law.ISOTROPY, [])}
+    if set(failed) == {Law.ISOTROPY} and len(spots) > MANY * len(laws.at.spots):
         yield _told(7.0, "it changes with the azimuth: all other laws hold once it is declared "
                          "anisotropic (isotropic = False)")
