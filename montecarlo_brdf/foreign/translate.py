@@ -79,12 +79,13 @@ def _source(includes: Includes, path: Path) -> str:
 
 
 def texts(shader: Shader, binaries: dict[str, bytes], optimise: bool = True) -> Texts:
-    """The model file's texts from the SPIR-V of its entries."""
+    """The model file's texts from the SPIR-V of its entries: the same operations in double and in
+    single precision. (What a compiler folds is folded in double, as most compilers do.)"""
     better: Callable[[bytes], bytes] = glslang.optimised if optimise else bytes
     literals = constants.literals(shader.text)
-    both = {k: (better(widened(b, literals)), better(b)) for k, b in binaries.items()}
+    binaries = {k: better(widened(b, literals)) for k, b in binaries.items()}
     said, name = shader.said, shader.path.name
-    double = Version(said, name, {k: b[0] for k, b in both.items()}, Numerals(single=False))
+    double = Version(said, name, binaries, Numerals(single=False))
     with within(CALLING, f"{shader.path}: its functions did not return within {CALLING:g} s"):
         text = double.text()
         space = trial.functions(text)
@@ -94,7 +95,7 @@ def texts(shader: Shader, binaries: dict[str, bytes], optimise: bool = True) -> 
             text = double.text()
     if said.precision == "double":
         return Texts(text, "")
-    single = Version(said, name, {k: b[1] for k, b in both.items()}, Numerals(single=True))
+    single = Version(said, name, binaries, Numerals(single=True))
     single.coloured = double.coloured
     return Texts(text, single.text())
 
