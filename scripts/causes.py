@@ -100,7 +100,7 @@ def page(rows: dict[str, Any]) -> str:
         "What is named as the cause of the known-bad BRDFs of `tests/mutants`, against what was",
         "done to them, after the check meant for each and those of f alone; and of the honest",
         "models of `tests/honest`, asked as if something had failed. Written by",
-        "`python scripts/causes.py`; how a cause is found and tested: [diagnosis](diagnosis.md).",
+        "`python scripts/causes.py`.",
         "",
         f"- {right} of {len(nameable)} mutants whose cause has a name are told the right one "
         f"({share:.0f} %);",

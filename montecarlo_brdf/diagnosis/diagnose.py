@@ -11,6 +11,7 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.diagnosis.cause import Examined
 from montecarlo_brdf.diagnosis.laws import Law
 from montecarlo_brdf.diagnosis.repair import Repair
+from montecarlo_brdf.errors import ModelError
 from montecarlo_brdf.judge.diagnosis import Cause, Diagnosis, Part, Place
 from montecarlo_brdf.judge.finding import Bound, Finding, Result, Verdict
 from montecarlo_brdf.sampling.directions import Sampler
@@ -67,11 +68,19 @@ def diagnose(case: Case, results: Sequence[Result]) -> Diagnosis | None:
     if not failed:
         return None
     began = time.process_time()
-    examined = Examined(case, results)
-    chosen = _chosen(examined, failed)
-    cause, first = _cause(examined, chosen), failed[0][0]
+    cause, first = _found(case, results, failed), failed[0][0]
     seconds = time.process_time() - began
     return Diagnosis(first.model, first.params, _place(failed, cause), cause, seconds)
+
+
+def _found(case: Case, results: Sequence[Result], failed: Refuted) -> Cause | None:
+    """The cause. Values that no formula expects, or sets that a model refuses, leave none: what was
+    refuted is told all the same."""
+    try:
+        examined = Examined(case, results)
+    except (ModelError, ArithmeticError, ValueError):  # of NumPy's linear algebra, too
+        return None
+    return _cause(examined, _chosen(examined, failed))
 
 
 def _chosen(examined: Examined, failed: Refuted) -> Repair | None:
@@ -123,7 +132,7 @@ def _cause(examined: Examined, r: Repair | None) -> Cause | None:
         return None
     n, laws = len(examined.at.spots), len(examined.failed)
     tested = (
-        f"repaired, {'the law' if laws == 1 else f'all {laws} laws'} that failed "
+        f"repaired, {'the law' if laws == 1 else f'the {laws} laws'} that failed "
         f"{'holds' if laws == 1 else 'hold'} at {n} of {n} places stored"
     )
     return Cause(r.part, r.sentence, tested)

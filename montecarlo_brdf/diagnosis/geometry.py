@@ -82,15 +82,3 @@ def turned(w: Array, angle: float) -> Array:
     c, s = np.cos(angle), np.sin(angle)
     w = np.atleast_2d(w)
     return np.stack([c * w[:, 0] - s * w[:, 1], s * w[:, 0] + c * w[:, 1], w[:, 2]], axis=1)
-
-
-def about_half(g: Geometry, angle: float) -> tuple[Array, Array]:
-    """wo and wi turned about their half vector, which stays."""
-    c, s = np.cos(angle), np.sin(angle)
-
-    def one(w: Array) -> Array:
-        along = np.sum(w * g.h, axis=1)[:, None] * g.h
-        found: Array = c * w + s * np.cross(g.h, w) + (1.0 - c) * along
-        return found
-
-    return one(g.wo), one(g.wi)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from montecarlo_brdf.diagnosis.ask import asked
-from montecarlo_brdf.diagnosis.geometry import NONE, Geometry, about_half, cost, turned
+from montecarlo_brdf.diagnosis.geometry import NONE, Geometry, cost, turned
 from montecarlo_brdf.diagnosis.identity import Identity, identities, sums
 from montecarlo_brdf.diagnosis.laws import EXACT, Divisor, Failures, Law, Laws
 from montecarlo_brdf.diagnosis.repair import Repair, repair
@@ -137,41 +137,6 @@ def _is(laws: Laws, other: Callable[[Target, Geometry], Array]) -> bool:
         if len(off) < 10 or not np.quantile(off, MOST) < CLOSE:
             return False
     return True
-
-
-def dependence(laws: Laws, failed: Failures) -> Iterator[Repair]:
-    """What f over a declared model depends on: the half vector alone, or the polar angles alone."""
-    if Law.SAME not in failed:
-        return
-    at, other = laws.at, laws.at.targets[0].model
-    told = {"half": [True, 0], "polar": [True, 0]}
-    for t in at.targets[:4]:
-        g = at.nodes[t.spot].g
-        g = Geometry(*(x[::10] for x in g))
-        moves = {"half": about_half(g, 0.7), "polar": (g.wo, turned(g.wi, 0.7))}
-        before = _quotient(laws, t, g.wo, g.wi)
-        for kind, (a, b) in moves.items():
-            up = (a[:, 2] > 0.05) & (b[:, 2] > 0.05)
-            after = _quotient(laws, t, np.where(up[:, None], a, g.wo),
-                              np.where(up[:, None], b, g.wi))
-            off = up & (np.abs(before - 1.0) > 1e-3) & np.isfinite(after) & np.isfinite(before)
-            told[kind][1] += int(off.sum())
-            change = np.abs(after - before)[off] / np.abs(before - 1.0)[off]
-            if off.any() and np.quantile(change, 0.9) > 0.01:
-                told[kind][0] = False
-    half, polar = (bool(told[k][0] and told[k][1] >= 20) for k in ("half", "polar"))
-    if half and not polar:
-        yield _told(9.0, f"f/{other.name} depends on the half vector alone: it is the distribution "
-                         "or Fresnel")
-    if polar and not half:
-        yield _told(9.0, f"f/{other.name} depends on the polar angles alone: it is masking or a "
-                         "cosine")
-
-
-def _quotient(laws: Laws, t: Target, wo: Array, wi: Array) -> Array:
-    ours = asked(laws.at.model, laws.at.model.f, [(t.p, wo, wi)])[0]
-    with np.errstate(all="ignore"):
-        return ours / _values(t, wo, wi)
 
 
 # a declared albedo --------------------------------------------------------------------------------

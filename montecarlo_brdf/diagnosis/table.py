@@ -25,7 +25,7 @@ TABLE: dict[Part, tuple[Find, ...]] = {
     Part.DRAWS: (of_values.draws,),
     Part.WEIGHT: (of_weight.weights, of_values.draws),
     Part.F: (of_f.declared_model, of_f.declared_albedo, of_f.reciprocity, of_f.by_pdf,
-             of_f.identified, of_f.two_terms, of_f.dependence, of_f.undeclared),
+             of_f.identified, of_f.two_terms, of_f.undeclared),
 }  # fmt: skip
 
 

@@ -2,7 +2,7 @@
 no draw lies on the viewer's side but what the lobe throws there.
 
 caught by: cover
-cause: none
+cause: not drawn
 """
 
 import math

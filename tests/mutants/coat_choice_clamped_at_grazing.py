@@ -3,7 +3,7 @@ above 0.05, the pdf does not: they differ beyond 87.1 degrees alone.
 
 suite: slow
 caught by: pdf
-cause: grazing
+cause: lobe choice
 """
 
 import math

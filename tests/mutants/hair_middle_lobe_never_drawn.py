@@ -3,7 +3,7 @@ two, f has the light through the middle too.
 
 suite: slow
 caught by: cover
-cause: none
+cause: not drawn
 """
 
 import math

@@ -2,7 +2,7 @@
 
 suite: slow
 caught by: cover
-cause: none
+cause: not drawn
 """
 
 import math

@@ -3,7 +3,7 @@ know it.
 
 suite: slow
 caught by: radiance
-cause: none
+cause: lobe choice
 """
 
 import math

@@ -1,7 +1,7 @@
 """Directions near the horizon are never drawn; the pdf knows it, f does not.
 
 caught by: furnace
-cause: none
+cause: not drawn
 """
 
 import math
