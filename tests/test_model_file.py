@@ -99,9 +99,11 @@ def test_several_models_in_a_file(user_file: Write, cli: Command) -> None:
 
 
 def test_energy_is_violated_by_a_users_file_too(user_file: Write, cli: Command) -> None:
-    path = user_file(EXACT.replace("p.albedo / math.pi", "p.albedo"))
-    outcome = cli("furnace", "--model", path, "--theta-o", 30)
-    assert outcome.code == 1
+    wrong = EXACT.replace("p.albedo / math.pi", "p.albedo")
+    outcome = cli("furnace", "--model", user_file(wrong), "--theta-o", 30)
+    assert outcome.code == 1 and "A / albedo" not in outcome.out
+    scaled = wrong + '\n\nscales_with = "albedo"\n'
+    outcome = cli("furnace", "--model", user_file(scaled), "--theta-o", 30)
     assert "A / albedo = pi: the factor 1/pi is missing" in outcome.out
 
 

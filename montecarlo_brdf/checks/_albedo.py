@@ -24,8 +24,8 @@ Measure = Callable[[Plan], list[list[Measurement]]]
 
 
 def units(model: Model, one: Parameters) -> dict[str, float]:
-    """What a hint may compare A with: the parameter that the model scales with."""
-    names = [model.scales_with] if model.scales_with else list(one._fields)
+    """What a hint may compare A with: the parameter that the model scales with, and no other."""
+    names = [model.scales_with] if model.scales_with else []
     return {model.labels.get(n, n): getattr(one, n) for n in names if getattr(one, n)}
 
 

@@ -113,9 +113,9 @@ def _cause(case: Case, there: Case, theta: float, value: float, reverse: bool) -
     if _certain(there._replace(p=case.one), theta, reverse) <= 1.0 < value:
         return parameters.unlike(case, there.one)
     if theta > 85.0 and _certain(there._replace(viewer=None), 0.0, reverse) <= 1.0:
-        return "grows towards grazing: look at masking and at cosines in denominators"
+        return f"at most 1 at the normal, {value:.4g} at {theta:.1f} degrees"
     turned = f", azimuth {there.phi_o_deg:.0f}" if not case.model.isotropic else ""
-    return f"most at {theta:.1f} degrees{turned}: compare the normalisation, weights that add up"
+    return f"most at {theta:.1f} degrees{turned}"
 
 
 def _first(case: Case, theta: float, plan: Plan) -> list[Measurement]:
