@@ -91,9 +91,9 @@ def _named(case: Case, theta: float) -> str | None:
     integrate it, as 1/cos."""
     if not (case.model.sample and case.model.pdf):
         return None
-    from montecarlo_brdf.checks import _draws  # imports numpy
+    from montecarlo_brdf.checks import _density  # imports numpy
 
-    return None if _draws.chooses(case, theta) else _draws.ratio_cause(case, theta)
+    return _density.ratio_cause(case, theta)
 
 
 def _weights(case: Case, one: Parameters, where: dict[str, Any]) -> Claim:

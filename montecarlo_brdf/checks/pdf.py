@@ -1,13 +1,16 @@
-"""The density of the sampler: does it integrate to 1 less what is rejected, and is it its Jacobian?
+"""The density of the sampler: is its integral 1 less what is rejected, and is it the draws' own?
 
 int pdf by quadrature in coordinates that follow the lobe, plus the fraction of draws that are
-rejected, is 1; pdf |dw/du1 x dw/du2| by finite differences is 1 where one direction belongs to one
-pair of numbers, and at least 1 where it belongs to several: what it lacks of 1, on average over u,
-is a distance between draws and pdf. A returned weight is f cos/pdf; drawn directions are finite
-unit vectors with pdf > 0, which is finite and not negative anywhere. All this also at other
-azimuths and parameters, and at the ends of their ranges.
-It cannot see: a density that is wrong in shape where the sampler chooses among lobes (`sampling`
-can).
+rejected, is 1. At drawn directions pdf is the density of the draws: the sum of 1/|dw/du x dw/dv|
+over all numbers that give the direction, in every lobe that u[2] may choose, times the lobe's
+share (estimate.density); what it lacks of that, on average over draws, is a distance between draws
+and pdf. A returned weight is f cos/pdf; where it is that on average alone, or where there is no
+pdf, the mean weight of all draws with a direction is f cos over their density. Drawn directions
+are finite unit vectors with pdf > 0, which is finite and not negative anywhere. All this also at
+other azimuths and parameters, and at the ends of their ranges.
+It cannot see: a pdf that is too large where its integral is right, but for what it then lacks
+elsewhere; and the density of samplers in which all three numbers place a direction, or whose lobes'
+shares depend on u[0] and u[1] (a note says so, and `sampling` asks).
 """
 
 from __future__ import annotations
@@ -18,12 +21,10 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.cases.survey import Survey, sure, survey
-from montecarlo_brdf.checks import _draws, _mixture
+from montecarlo_brdf.cases.survey import Survey, survey
+from montecarlo_brdf.checks import _density, _draws, _mixture
 from montecarlo_brdf.checks._draws import MASS_TOLERANCE
 from montecarlo_brdf.checks._truth import RESOLVED
 from montecarlo_brdf.estimate.evaluate import estimates
@@ -55,18 +56,19 @@ if TYPE_CHECKING:
 #: times the samples, for the rejected draws: an edge in the integrand, but a cheap one
 EDGE = (4, 32)
 MOST_REJECTED = 1 << 25  # of these draws
-GRAZING = 86.0  # degrees: beyond that samplers tend to have a way of their own
 
 NAME = "pdf"
-QUESTION = "does the pdf integrate to 1, is it the sampler's Jacobian, is the weight f cos/pdf?"
+QUESTION = "does the pdf integrate to 1, is it the density of draws, is the weight f cos/pdf?"
 PROPERTY = Property.PDF
 #: standard errors in half of an interval that misses the truth once in 10^9, as a quadrature's does
 SIGMAS = 6.1
 SAMPLES = 1 << 21  # of the mass by uniform directions
-#: of the draws: the share that pdf may lack
-JACOBIAN_TOLERANCE = 2e-3
+#: of the draws: the share that pdf, or f, may lack; where a direction belongs to several numbers
+TOLERANCE, OF_SEVERAL = 2e-3, 1e-2
+GRAZING = 86.0  # degrees: beyond that samplers tend to have a way of their own
 #: a law that a case and an angle are asked about
 Evaluation = Callable[[Case], Exact]
+Measure = Callable[[Case, float, Plan], list[Measurement]]
 
 
 def claims(case: Case) -> Iterator[Claim]:
@@ -75,31 +77,64 @@ def claims(case: Case) -> Iterator[Claim]:
         yield Skip("pdf", f"model {case.model.name} has no sampler")
         return
     yield _claim(case, "drawn directions at fault", 0.0, _draws.faults)
+    if weighted(case.model):
+        yield from _weights(case)
     if case.model.pdf is None:
         return
     yield _claim(case, "values of pdf at fault", 0.0, _draws.values)
-    chosen = any(_draws.chooses(case, theta) for theta in (*case.theta_o_deg, GRAZING))
-    if weighted(case.model):
-        yield _weights(case, chosen)
     for theta in case.theta_o_deg:
         yield _normalisation(case, theta)
-        yield from _differences(case, theta)
+        yield _lacking(case, theta)
     at = survey(case)
     for k in _decidable(at):
         yield _normalisation(*at.place(k))
-    if not chosen:
-        yield from _differences(*at.place(int(np.argmax(sure(_draws.deficits(at))))))
+    yield _lacking(*at.place(_density.farthest(at)))
 
 
-def _weights(case: Case, chosen: bool) -> Claim:
-    """Where draws choose among lobes a weight may be right on average alone: that is told."""
-    if chosen:
+def _weights(case: Case) -> Iterator[Claim]:
+    """Where directions belong to several numbers a weight may be right on average alone: that is
+    told, and asked; and it is what can be asked where there is no pdf."""
+    places = [(case, theta) for theta in case.theta_o_deg]
+    if case.model.pdf is not None:
         found = _draws.weight(case)
-        off = "not f cos/pdf draw by draw, as of one lobe of several: on average, see `cover`"
-        note = off if found.value > _draws.UNIT_TOLERANCE else None
-        quantity = "|weight/(f cos/pdf) - 1|"
-        return Limit(quantity, {}, found.value, found.points, "exact", note=note)
-    return _claim(case, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, _draws.weight)
+        right = found.value <= _draws.UNIT_TOLERANCE
+        if right or not any(_density.averages(*place) for place in (*places, (case, GRAZING))):
+            yield _claim(case, "|weight/(f cos/pdf) - 1|", _draws.UNIT_TOLERANCE, lambda _: found)
+            return
+        off = "not f cos/pdf draw by draw, as of one lobe of several: its mean is asked"
+        value, points = found.value, found.points
+        yield Limit("|weight/(f cos/pdf) - 1|", {}, value, points, "exact", note=off)
+    for place in (*places, *parameters.elsewhere(case)):
+        yield _overweight(*place)
+
+
+def _lacking(case: Case, theta: float) -> Claim:
+    """At a direction and parameters, pdf is the density of the draws."""
+    return _of_draws(case, theta, "(1 - pdf/density)+", _density.lacking, _density.ratio_hint)
+
+
+def _overweight(case: Case, theta: float) -> Claim:
+    """The same of weights: their mean is f cos over that density."""
+    quantity = "(1 - f cos/(density weight))+"
+    return _of_draws(case, theta, quantity, _density.overweight, _density.weight_hint)
+
+
+def _of_draws(
+    case: Case, theta: float, quantity: str, measure: Measure, hint: Callable[[Case, float], str]
+) -> Claim:
+    """A share of the draws that is 0, where their density is known."""
+    if why := _density.unknown(case, theta):
+        return Skip(quantity, f"the density of the draws is not known: {why}; see `sampling`")
+    return MeanClaim(
+        quantity,
+        parameters.where(case, theta),
+        Bound.AT_MOST,
+        Reference(0.0, 0.0, Kind.LAW, "sampler and density belong together"),
+        OF_SEVERAL if _density.several(case, theta) else TOLERANCE,
+        functools.partial(measure, case, theta),
+        property=PROPERTY,
+        diagnosis=functools.partial(hint, case, theta),
+    )
 
 
 def _decidable(at: Survey) -> set[int]:
@@ -121,27 +156,6 @@ def _resolved(case: Case, theta: float) -> bool:
 
 def _excess(nodes: Nodes) -> Array:
     return nodes.mass - 1.0
-
-
-def _differences(case: Case, theta: float) -> Iterator[Claim]:
-    """What differences of neighbouring draws say."""
-    if _draws.chooses(case, theta):
-        yield Skip("pdf Jacobian", "the sampler chooses among lobes by u[2]: see `sampling`")
-    else:
-        yield _jacobian(case, theta)
-
-
-def _jacobian(case: Case, theta: float) -> MeanClaim:
-    return MeanClaim(
-        "(1 - pdf Jacobian)+",
-        parameters.where(case, theta),
-        Bound.AT_MOST,
-        Reference(0.0, 0.0, Kind.LAW, "sampler and density belong together"),
-        JACOBIAN_TOLERANCE,
-        functools.partial(_draws.deficit, case, theta),
-        property=PROPERTY,
-        diagnosis=functools.partial(_draws.ratio_hint, case, theta),
-    )
 
 
 def _claim(case: Case, quantity: str, tolerance: float, evaluate: Evaluation) -> ExactClaim:
@@ -171,7 +185,7 @@ def _normalisation(case: Case, theta: float) -> MeanClaim:
 
 
 def _named(case: Case, theta: float) -> str | None:
-    return None if _draws.chooses(case, theta) else _draws.ratio_cause(case, theta)
+    return _density.ratio_cause(case, theta)
 
 
 def _held(case: Case, theta: float, seed: int) -> Measurement:

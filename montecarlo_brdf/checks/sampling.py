@@ -17,7 +17,7 @@ import numpy as np
 
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import _draws
+from montecarlo_brdf.checks import _density
 from montecarlo_brdf.checks._cells import Cells
 from montecarlo_brdf.chi_squared import largest_excess, upper_tail
 from montecarlo_brdf.estimate.plan import Plan
@@ -56,8 +56,8 @@ def claims(case: Case) -> Iterator[Claim]:
             continue
         measure = functools.partial(fit, case, theta, cells)
         yield _claim(case.where(theta_o_deg=theta), tolerance, measure)
-    # one lobe of several can be wrong where only all of them together tell
-    ends = parameters.at_extremes(case) if _draws.chooses(case, case.theta_o_deg[0]) else ()
+    # where no direction's density is known, one lobe of several can be wrong at the ends of ranges
+    ends = parameters.at_extremes(case) if _density.unknown(case, case.theta_o_deg[0]) else ()
     for other, theta in (*parameters.elsewhere(case), *ends):
         tolerance = WIDER * case.tolerated(TOLERANCE)
         cells = Cells(other, theta, tolerance)

@@ -15,13 +15,14 @@ says so.
 
 from __future__ import annotations
 
+import functools
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from montecarlo_brdf.estimate.pieces import Draw, Piece, pieces
 from montecarlo_brdf.estimate.places import draws_of, rows_of
-from montecarlo_brdf.estimate.roots import Draws, Search
+from montecarlo_brdf.estimate.roots import Draws, Roots, Search, own_roots
 from montecarlo_brdf.estimate.tangents import STEP, tangents
 from montecarlo_brdf.model import Model, ParameterSet
 from montecarlo_brdf.vectors import Vec
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 #: keeps draws away from the poles of u, where differences are less exact
 MARGIN = 2.0**-10
 FINER = 8.0  # times: the second step width
-POOL = 2048  # draws that searches start from, at least
+POOL = 1024  # draws that searches start from, at least
 
 
 class Density(NamedTuple):
@@ -84,18 +85,28 @@ def inner(rng: np.random.Generator, n: int) -> Array:
 
 
 def density(
-    model: Model, p: ParameterSet, wo: Vec, u: Array, seed: int = 0, step: float = STEP
+    model: Model,
+    p: ParameterSet,
+    wo: Vec,
+    u: Array,
+    seed: int = 0,
+    step: float = STEP,
+    others: bool = True,
 ) -> Density:
     """The density of the draws at those of the numbers u (n, 3), as `inner` makes them, for a
     direction wo and one parameter set; 40 of them are enough where only laws are looked at, as
-    searches start from others besides. `step`: of u in differences."""
-    rng = np.random.default_rng(seed)
-    draw = _drawing(model, p, wo)
-    pool = Draws(draw, np.concatenate([u, inner(rng, max(0, POOL - len(u)))]), len(u))
-    found = pieces(draw, rng)
-    if isinstance(found, str):
-        return _unknown(pool, found)
-    return _summed(pool, found, step)
+    searches start from others besides. `step`: of u in differences. Without `others` a draw's own
+    numbers count alone, which is cheap: a lower bound where a direction belongs to several."""
+    more = inner(np.random.default_rng(seed), max(0, POOL - len(u)) if others else 0)
+    pool = Draws(drawing(model, p, wo), np.concatenate([u, more]), len(u))
+    found = pieces_of(model, p, wo)
+    return _unknown(pool, found) if isinstance(found, str) else _summed(pool, found, step, others)
+
+
+@functools.lru_cache(maxsize=64)
+def pieces_of(model: Model, p: ParameterSet, wo: Vec) -> list[Piece] | str:
+    """The pieces of u[2], or why there are none."""
+    return pieces(drawing(model, p, wo), np.random.default_rng(0))
 
 
 def _unknown(pool: Draws, why: str) -> Density:
@@ -106,7 +117,7 @@ def _unknown(pool: Draws, why: str) -> Density:
                    empty.astype(np.intp), none, none, (), pool.rejected, why)  # fmt: skip
 
 
-def _drawing(model: Model, p: ParameterSet, wo: Vec) -> Draw:
+def drawing(model: Model, p: ParameterSet, wo: Vec) -> Draw:
     """The sampler for one direction and parameter set, compiled, on arrays."""
     model = model.of(p)
     sets, fixed = rows_of(model, p, np.array([tuple(p)], dtype=float)), np.array(wo)
@@ -118,9 +129,12 @@ def _drawing(model: Model, p: ParameterSet, wo: Vec) -> Draw:
     return draw
 
 
-def _summed(pool: Draws, found: list[Piece], step: float) -> Density:
+def _summed(pool: Draws, found: list[Piece], step: float, others: bool) -> Density:
     """Over pieces and roots."""
-    parts = [_part(pool, piece, step) for piece in found]
+    parts = [
+        _part(pool, piece, Search(pool, piece).roots if others else own_roots(pool, piece), step)
+        for piece in found
+    ]
     lobes, error, light, own = (
         np.stack([getattr(part, name) for part in parts], axis=1) for name in Part._fields[:4]
     )
@@ -142,20 +156,17 @@ class Part(NamedTuple):
     roots: Counts
 
 
-def _part(pool: Draws, piece: Piece, step: float) -> Part:
+def _part(pool: Draws, piece: Piece, found: Roots, step: float) -> Part:
     """Of one piece. Of two differences the one that makes the density smaller counts: neighbours
     across a fold of the map are too near each other. An area of 0 is an atom's, or rounding."""
-    search, n = Search(pool, piece), pool.asked
-    u, row = search.roots
+    (u, row), n = found, pool.asked
     areas = np.stack([tangents(pool.draw, u, piece, h).area for h in (step, step / FINER)])
     with np.errstate(all="ignore"):
         each = piece.extent / piece.share / areas
     each[~np.isfinite(each)] = 0.0
     least, own = each.min(axis=0), np.zeros(n)
-    first = np.concatenate([[True], np.diff(row) > 0]) & search.own[row]
+    first = np.concatenate([[True], np.diff(row) > 0])[: len(row)] & pool.within(piece)[row]
     own[row[first]] = least[first]
-    error = np.abs(each[1] - each[0])
-    lobe, error, light = (
-        np.bincount(row, x, n).astype(float) for x in (least, error, least * pool.draw(u)[:, 3])
-    )
+    sums = (least, np.abs(each[1] - each[0]), least * pool.draw(u)[:, 3])
+    lobe, error, light = (np.bincount(row, x, n).astype(float) for x in sums)
     return Part(lobe, error, light, own, np.bincount(row, minlength=n))

@@ -25,6 +25,7 @@ LINES = 8  # pairs (u[0], u[1]) at which u[2] is varied
 STOPS = 64  # values of u[2] on each, at random within their 64ths, and both ends
 END = 2.0**-30  # of [0, 1]: rare lobes lie at the ends
 HALVINGS = 36  # of an interval with a jump: 2^-6 becomes less than APART
+COARSE = 12  # halvings where an extent only chooses
 APART = 1e-10  # between jumps of different lines that are one
 MOST = 16  # jumps on a line, beyond which u[2] counts as a coordinate there
 SAME = 1e-12  # between directions, and weights, that are one
@@ -88,7 +89,10 @@ def pieces(draw: Draw, rng: np.random.Generator) -> list[Piece] | str:
 
 
 def _same(a: Array, b: Array) -> Flags:
-    return np.asarray(np.isclose(a, b, rtol=0.0, atol=SAME, equal_nan=True).all(axis=-1))
+    """Which draws (..., 4) are one; NaN is NaN."""
+    with np.errstate(invalid="ignore"):
+        close = (np.abs(a - b) <= SAME) | (np.isnan(a) & np.isnan(b))
+    return close[..., 0] & close[..., 1] & close[..., 2] & close[..., 3]
 
 
 def _bisected(draw: Draw, pairs: Array, low: Array, high: Array, before: Array) -> Array:
@@ -131,3 +135,25 @@ def _idle(draw: Draw, rng: np.random.Generator, piece: Piece, number: int) -> bo
     last[:, number] = high - END * (high - low)
     w = draw(u)
     return bool((_same(w, draw(first)) & _same(w, draw(last))).all())
+
+
+def extents(draw: Draw, u: Array) -> Array:
+    """(n,) how far u[2] may move about the numbers (n, 3) before the draw changes."""
+    w = draw(u)
+    found: Array = _reach(draw, u, w, 1.0) - _reach(draw, u, w, 0.0)
+    return found
+
+
+def _reach(draw: Draw, u: Array, w: Array, end: float) -> Array:
+    """Towards an end of [0, 1], by halving."""
+
+    def held(third: Array) -> Flags:
+        return _same(draw(np.column_stack([u[:, :2], third])), w)
+
+    far, near = np.full(len(u), abs(end - END)), u[:, 2]
+    whole = held(far)
+    for _ in range(0 if whole.all() else COARSE):
+        middle = 0.5 * (far + near)
+        same = held(middle)
+        near, far = np.where(same, middle, near), np.where(same, far, middle)
+    return np.where(whole, end, near)

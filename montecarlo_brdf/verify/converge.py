@@ -15,7 +15,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import _draws, _truth
+from montecarlo_brdf.checks import _density, _truth
 from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.estimate.estimators import directional_albedo
 from montecarlo_brdf.estimate.evaluate import estimates
@@ -141,7 +141,7 @@ def _claimed_as(case: Case, sampler: str, points: str) -> str:
     """Jittered grids spread two numbers at a time: with a lobe chosen by a third they converge like
     independent points."""
     grid = points == PointSet.STRATIFIED and sampler == Sampler.OWN
-    return PointSet.INDEPENDENT if grid and _draws.chooses(case, case.theta_o_deg[0]) else points
+    return PointSet.INDEPENDENT if grid and _density.chooses(case, case.theta_o_deg[0]) else points
 
 
 class Level(NamedTuple):

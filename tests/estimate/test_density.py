@@ -35,7 +35,7 @@ def of(name: str, theta: float = 45.0, **changed: float) -> tuple[Density, Any]:
 )
 def test_one_root_or_several_pdf_is_the_density(name: str, roots: float) -> None:
     found, ratio = of(f"honest/{name}")
-    assert found.unknown is None and abs(found.roots.mean() - roots) < 0.01
+    assert found.unknown is None and abs(found.roots.mean() - roots) < 0.03  # near folds
     assert np.quantile(np.abs(ratio - 1.0), 0.95) < 1e-5  # a pole's (STEP/u)^2/8, at u = MARGIN
     assert ratio.min() > 1.0 - 1e-6  # a root that is missed makes the density smaller, never larger
 

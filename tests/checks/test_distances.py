@@ -1,4 +1,4 @@
-"""The mean of (1 - pdf Jacobian)+: the share of the draws that a pdf does not account for."""
+"""The mean of (1 - pdf/density)+: the share of the draws that a pdf does not account for."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import pytest
 import montecarlo_brdf as mb
 from montecarlo_brdf.cases import parameters
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import _draws
-from montecarlo_brdf.checks.pdf import JACOBIAN_TOLERANCE
+from montecarlo_brdf.checks import _density
+from montecarlo_brdf.checks.pdf import OF_SEVERAL
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.decide import LEVEL
 from montecarlo_brdf.statistics import Estimate
@@ -25,7 +25,7 @@ def case(name: str) -> Case:
 
 
 def deficit(case: Case, theta: float = 45.0, seed: int = 0) -> Estimate:
-    return _draws.deficit(case, theta, PLAN._replace(seed=seed))[0].estimate
+    return _density.lacking(case, theta, PLAN._replace(seed=seed))[0].estimate
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -39,7 +39,7 @@ def test_rare_lobes_seams_and_directions_drawn_twice_are_no_fault_of_a_pdf(
     counts as up to 1: more than 9 have a probability below 1e-8. Fewer than 5: decided."""
     e = deficit(case(f"honest/{name}"), seed=seed)
     assert e.mean <= 9 / PLAN.samples
-    assert e.half_width(LEVEL / 2.0) + 5 / PLAN.samples < JACOBIAN_TOLERANCE
+    assert e.half_width(LEVEL / 2.0) + 5 / PLAN.samples < OF_SEVERAL
 
 
 def test_a_sampler_that_clamps_is_wrong_at_an_end_only() -> None:
@@ -66,6 +66,6 @@ def test_one_pair_of_numbers_or_several_no_share_is_negative() -> None:
 
 def test_a_rare_lobe_chosen_by_the_third_number_is_noticed() -> None:
     model = mb.load("0.0015 lambert + 0.9985 ggx")
-    assert _draws.chooses(Case(model, model.parameters(), (45.0,)), 45.0)
+    assert _density.chooses(Case(model, model.parameters(), (45.0,)), 45.0)
     plain = mb.load("ggx")
-    assert not _draws.chooses(Case(plain, plain.parameters(), (45.0,)), 45.0)
+    assert not _density.chooses(Case(plain, plain.parameters(), (45.0,)), 45.0)
