@@ -2,8 +2,8 @@
 
 A pdf 1 % too large, a sampler whose alpha is 2 % off, 0.5 % of energy too much: caught how often,
 in which time per run, by the finding meant for it; the honest model's false alarms by the same
-findings; and the mass of the pdf and the Jacobian alone. Every run starts with a fresh seed and
-empty tables. Times are of one processor, in process, compiled.
+findings; and the mass of the pdf and its distance from the draws alone. Every run starts with a
+fresh seed and empty tables. Times are of one processor, in process, compiled.
 
     python scripts/power.py [--runs 3000]
     python scripts/power.py --times --runs 100
@@ -26,7 +26,7 @@ from environment import describe
 import montecarlo_brdf as mb
 from montecarlo_brdf import checks, references
 from montecarlo_brdf.cases.case import Case
-from montecarlo_brdf.checks import _draws, _truth
+from montecarlo_brdf.checks import _density, _draws, _truth
 from montecarlo_brdf.estimate.plan import Plan
 from montecarlo_brdf.judge.decide import decide
 from montecarlo_brdf.models import ggx
@@ -34,7 +34,7 @@ from montecarlo_brdf.verify.run import SAMPLES
 
 TARGET = Path(__file__).parent / "results" / "power.json"
 THETA = 45.0
-MASS, JACOBIAN, ALBEDO = "int pdf + rejected", "(1 - pdf Jacobian)+", "A"
+MASS, DENSITY, ALBEDO = "int pdf + rejected", "(1 - pdf/density)+", "A"
 
 
 def pdf_one_percent_large(wo: Any, wi: Any, p: Any) -> float:
@@ -65,10 +65,10 @@ def subjects() -> dict[str, tuple[Any, str, tuple[str, ...]]]:
     change = dataclasses.replace
     return {
         "pdf 1 % too large": (change(honest, pdf=pdf_one_percent_large), "pdf", (MASS,)),
-        "warp 2 % off": (change(honest, sample=warp_two_percent_off), "pdf", (JACOBIAN,)),
+        "warp 2 % off": (change(honest, sample=warp_two_percent_off), "pdf", (DENSITY,)),
         "0.5 % energy gain": (change(honest, f=half_percent_gain), "furnace", (ALBEDO,)),
         "honest, mass of the pdf": (honest, "pdf", (MASS,)),
-        "honest, Jacobian": (honest, "pdf", (JACOBIAN,)),
+        "honest, density of draws": (honest, "pdf", (DENSITY,)),
         "honest, albedo": (honest, "furnace", (ALBEDO,)),
     }
 
@@ -76,6 +76,7 @@ def subjects() -> dict[str, tuple[Any, str, tuple[str, ...]]]:
 def run(model: Any, check: str, findings: tuple[str, ...], seed: int) -> str:
     """The verdict of a run: the worst of the findings, from nothing but compiled code."""
     _draws.density_integral_of.cache_clear()
+    _density._look.cache_clear()
     _truth.quadrature.cache_clear()
     p = model.parameters()
     case = Case(model, p, [THETA], seed=seed)

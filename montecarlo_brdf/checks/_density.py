@@ -8,6 +8,7 @@ is estimated is a distance that there is at least.
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -73,8 +74,8 @@ def unknown(case: Case, theta: float) -> str | None:
 
 
 def several(case: Case, theta: float) -> bool:
-    """Whether directions belong to several numbers, as in a mixture of lobes; more than 0.3 % of
-    the draws do not if none of those looked at does, with a probability of 99.8 %."""
+    """Whether directions belong to several numbers, as in a mixture of lobes: of draws that do, 2 %
+    show with a probability of 1 - 10^-9."""
     return bool((look(case, theta).roots.sum(axis=1) > 1).any())
 
 
@@ -207,6 +208,18 @@ def farthest(at: Survey) -> int:
     lobes = chooses(at.case, at.case.theta_o_deg[0] if at.case.theta_o_deg else 45.0)
     index = at.some if lobes else np.arange(len(at.points.wo))
     return int(index[np.argmax(sure(_deficits(at, index, lobes)))])
+
+
+def worst_of(places: Iterable[tuple[Case, float]]) -> tuple[Case, float]:
+    """The place where looks, each with all roots, show most that pdf lacks."""
+    return max(places, key=lambda place: _seen(*place))
+
+
+def _seen(case: Case, theta: float) -> float:
+    at = look(case, theta)
+    pdf = _values(case, theta, _pdf(case.model), at.w)
+    with np.errstate(all="ignore"):
+        return _mean(1.0 - pdf / _surely(at, at.density), at).estimate.mean
 
 
 def _deficits(at: Survey, index: Index, lobes: bool) -> Array:

@@ -89,6 +89,10 @@ def claims(case: Case) -> Iterator[Claim]:
     for k in _decidable(at):
         yield _normalisation(*at.place(k))
     yield _lacking(*at.place(_density.farthest(at)))
+    if any(_density.averages(case, theta) for theta in (*case.theta_o_deg, GRAZING)):
+        # what several numbers add up to is not seen by the draws' own alone
+        ends = (*parameters.elsewhere(case), *parameters.at_extremes(case))
+        yield _lacking(*_density.worst_of(ends))
 
 
 def _weights(case: Case) -> Iterator[Claim]:

@@ -16,7 +16,10 @@ import montecarlo_brdf
 PACKAGE = Path(montecarlo_brdf.__file__).parent
 TABLE = PACKAGE.parent / "docs" / "statistics.md"
 FOLDERS = ("checks", "cases", "judge", "stability", "table", "verify")
-ESTIMATE = ("adaptive", "ascent", "ends", "mesh", "plan", "polynomials", "quadrature", "trust")
+ESTIMATE = (
+    "adaptive", "ascent", "density", "ends", "mesh", "pieces", "plan", "polynomials", "quadrature",
+    "roots", "tangents", "trust",
+)  # fmt: skip
 OTHERS = ("arithmetic/batch", "arithmetic/types", "sampling/slopes", "statistics")
 FILES = (*OTHERS, *(f"estimate/{name}" for name in ESTIMATE))
 HINTS = {"checks/_hints", "judge/hint", "verify/bench", "verify/failure"}  # decide nothing

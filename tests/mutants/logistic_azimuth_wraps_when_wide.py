@@ -2,7 +2,7 @@
 beyond 0.7 the sampler wraps what lies beyond instead.
 
 suite: slow
-caught by: sampling
+caught by: pdf
 cause: azimuth
 """
 

@@ -1,6 +1,6 @@
 """Roughness is clamped in the sampler only, which shows at high exponents.
 
-caught by: sampling
+caught by: pdf
 cause: width
 """
 

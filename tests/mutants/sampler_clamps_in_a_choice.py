@@ -1,6 +1,6 @@
 """GGX on Lambert, one of them by u[2]; the sampler clamps alpha to at least 0.05, f and pdf do not.
 
-caught by: sampling
+caught by: pdf
 cause: none
 """
 import math
