@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 #: keeps draws away from the poles of u, where differences are less exact
 MARGIN = 2.0**-10
 FINER = 8.0  # times: the second step width
-POOL = 1024  # draws that searches start from, at least
+POOL = 2048  # draws that searches start from, at least
 
 
 class Density(NamedTuple):
