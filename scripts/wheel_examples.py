@@ -71,6 +71,7 @@ def prepared(program: Path, work: Path) -> None:
     """A user's folder."""
     work.mkdir()
     for name, text in FILES.items():
+        (work / name).parent.mkdir(parents=True, exist_ok=True)
         (work / name).write_text(text, encoding="utf-8")
     for line in BEFORE:
         run(program, f"brdf-check {line}", work).check_returncode()
