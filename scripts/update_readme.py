@@ -2,13 +2,15 @@
 code 1 if one is old).
 
 A block stands between `<!-- run: COMMAND -->` or `<!-- commands -->` and `<!-- end -->`. Commands
-run in an empty folder with the files that README itself shows (`<!-- file: NAME -->`).
+run in an empty folder with the files that a page itself shows (`<!-- file: NAME -->`) or has copied
+from the repository (`<!-- copy: PATH -->`).
 """
 from __future__ import annotations
 
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,9 +19,11 @@ from pathlib import Path
 from montecarlo_brdf.foreign import translation, wheel
 
 ROOT = Path(__file__).parent.parent
-PAGES = tuple(ROOT / n for n in ("README.md", "docs/tutorial.md", "docs/own_model.md"))
+PAGES = tuple(ROOT / n for n in ("README.md", "docs/tutorial.md", "docs/own_model.md",
+                                "docs/diagnosis.md"))
 BLOCK = re.compile(r"(<!-- (run|commands):? ?(.*?) ?-->\n)(.*?)(<!-- end -->)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n```\w*\n(.*?)```", re.DOTALL)
+COPY = re.compile(r"<!-- copy: (\S+) -->")
 #: An estimate and the spaces after it: the last digits are those of the machine.
 ESTIMATE = re.compile(r"(\d\.\d{12})\d*\(\d+\) *")
 PLAIN = {"BRDF_CHECK_QUIET": "1", "COLUMNS": "80", "NO_COLOR": "1", "PYTHONUTF8": "1"}
@@ -30,6 +34,8 @@ def updated(text: str) -> str:
     with tempfile.TemporaryDirectory() as folder:
         for name, content in FILE.findall(text):
             Path(folder, name).write_text(content, encoding="utf-8")
+        for path in COPY.findall(text):
+            shutil.copy(ROOT / path, folder)
 
         def block(match: re.Match[str]) -> str:
             head, kind, command, _, end = match.groups()

@@ -254,7 +254,7 @@ def test_sets_of_the_files_own_parameters(user_file: Write) -> None:
 
 UNUSABLE = {
     "def prepare(p):\n    return 5": "prepare of model {} must return a NamedTuple of numbers",
-    "def prepare(p):\n    return (np.zeros(3),)": "must return a NamedTuple of numbers and tuples",
+    "def prepare(p):\n    return ('x',)": "NamedTuple of numbers, and of tuples and arrays of such",
     "def prepare(p):\n    raise KeyError('b')": "prepare of model {} raised KeyError (line 5): 'b'",
     "lobe = ('mirror', lambda p: 'x')": "the width of a lobe must be a number, not 'x'",
     "lobe = ('mirror', lambda p: p.width)": "lobe of model {} raised AttributeError (line 4)",

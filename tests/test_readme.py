@@ -62,6 +62,24 @@ def test_the_page_on_models_is_fresh(script: ModuleType) -> None:
     assert script.same(script.updated(page), page) and "reciprocal but for a factor" in page
 
 
+def test_reports_of_causes_are_short() -> None:
+    """Of six refuted models: 12 lines of 80 columns, the cause first."""
+    page = (ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
+    reports = re.findall(r"```console\n\$ brdf-check run (?:.*)\n(.*?)\$ echo", page, re.DOTALL)
+    assert len(reports) == page.count("<!-- run: ") == 6
+    for report in reports:
+        lines = report.splitlines()
+        assert len(lines) <= 12 and max(map(len, lines)) <= 80
+        assert "FAIL" in lines[0] and "cause " in lines[1]
+
+
+@pytest.mark.slow
+def test_reports_of_causes_are_fresh(script: ModuleType) -> None:
+    """If this fails: python scripts/update_readme.py"""
+    page = (ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
+    assert script.same(script.updated(page), page)
+
+
 def test_an_old_block_is_seen(script: ModuleType) -> None:
     old = "<!-- run: brdf-check --version -->\nsomething else\n<!-- end -->\n"
     new = script.updated(old)

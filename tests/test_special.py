@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 
 from montecarlo_brdf import special
-from montecarlo_brdf.compile import kernel
 from montecarlo_brdf.compile.bind import hole
 
 mp.mp.dps = 40
@@ -33,7 +32,8 @@ def compiled(function: Callable[[float], float]) -> Callable[[Any, Any], None]:
 
     from montecarlo_brdf.compile import compiler
 
-    return numba.njit(**compiler.options())(kernel.specialiser().clone(run, {"F": function}))
+    specialiser = compiler.specialiser(compiler.compiled)
+    return numba.njit(**compiler.options())(specialiser.clone(run, {"F": function}))
 
 
 def both(function: Callable[[float], float], x: Any) -> list[Any]:

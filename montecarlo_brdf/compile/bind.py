@@ -185,6 +185,7 @@ class Specialiser:
             code, scope, function.__name__, function.__defaults__, cells or None
         )
         clone.__qualname__ = function.__qualname__
+        clone.__module__ = None  # type: ignore[assignment]  # numba would import a user's file again
         return clone
 
     def _stand_in(self, value: object, code: types.CodeType, names: Mapping[str, object]) -> Any:

@@ -87,15 +87,15 @@ def _bare(template: Bound) -> Part:
     return _kept(template, lambda: ((), compiler.entry_module(compiler.assembled(template))))
 
 
-_parts: dict[Bound, Part] = {}  # of this process
+_parts: dict[str, Part] = {}  # of this process, by content: a global may have been set since
 
 
 def _kept(content: Bound, make: Callable[[], tuple[Kind, Any]]) -> Part:
     """From this process, else from disk, else made."""
-    if content not in _parts:
-        name = name_of("part", content)
-        _parts[content] = _read(name) or _written(name, Part(*make()))
-    return _parts[content]
+    name = name_of("part", content)
+    if name not in _parts:
+        _parts[name] = _read(name) or _written(name, Part(*make()))
+    return _parts[name]
 
 
 def _written(name: str, part: Part) -> Part:

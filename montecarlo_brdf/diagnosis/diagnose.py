@@ -11,7 +11,7 @@ from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.diagnosis.cause import Examined
 from montecarlo_brdf.diagnosis.laws import Law
 from montecarlo_brdf.diagnosis.repair import Repair
-from montecarlo_brdf.errors import ModelError
+from montecarlo_brdf.errors import UserError
 from montecarlo_brdf.judge.diagnosis import Cause, Diagnosis, Part, Place
 from montecarlo_brdf.judge.finding import Bound, Finding, Result, Verdict
 from montecarlo_brdf.sampling.directions import Sampler
@@ -78,7 +78,7 @@ def _found(case: Case, results: Sequence[Result], failed: Refuted) -> Cause | No
     refuted is told all the same."""
     try:
         examined = Examined(case, results)
-    except (ModelError, ArithmeticError, ValueError):  # of NumPy's linear algebra, too
+    except (UserError, ArithmeticError, ValueError):  # of NumPy's linear algebra, too
         return None
     return _cause(examined, _chosen(examined, failed))
 

@@ -23,6 +23,8 @@ PATIENCE = 60.0  # seconds
 #: to LLVM's code as a kernel wants it: to be inlined, and vectorised there
 CODE = """-O1 -g0 -fno-math-errno -fno-slp-vectorize -fno-vectorize -ffp-contract=fast
           -fno-sanitize=all -fno-stack-protector -emit-llvm -c""".split()  # noqa: SIM905
+#: C of 1989 took a name that nobody declared for a function that returns int
+DECLARING = ["-Werror=implicit-function-declaration"]
 LIBRARY = "-O3 -fno-math-errno -ffp-contract=fast -shared -fPIC".split()  # noqa: SIM905
 #: what ties a function to one processor, which would keep it from being inlined
 TIED = re.compile(r'"(?:target-cpu|target-features|tune-cpu|probe-stack)"="[^"]*"')
@@ -44,6 +46,7 @@ def made(program: str, path: Path, folders: list[Path], plus: bool) -> Made:
         file = Path(place) / ("program.cpp" if plus else "program.c")
         file.write_text(program, encoding="utf-8")
         include = [x for folder in (path.parent, *folders) for x in ("-I", str(folder))]
+        include += [] if plus else DECLARING
         for command in clangs(plus):
             out = _run([*command, *CODE, *include, str(file)], file.with_suffix(".bc"), path)
             code = plain(out.read_bytes())

@@ -123,7 +123,8 @@ def _diagnosed(
             results += some
             continue
         results += causes.marked(some, one)
-        again = _again(case, settings, one.place)
+        asked = {task.question.name: task.question.case for task in group}
+        again = _again(asked[one.place.check], settings, one.place)
         told.append(replace(one, place=replace(one.place, reproduce=again)))
     return results, told
 
@@ -255,11 +256,7 @@ def _repeat(case: Case, name: str, settings: Settings, finding: Finding) -> str:
         words += [] if key in free else ["-p", f"{key}={'/'.join(map(str, values))}"]
     words += ["--theta-o", ",".join(map(exactly, case.theta_o_deg))]
     words += ["--phi-o", exactly(case.phi_o_deg)] if case.phi_o_deg else []
-    words += settings.options(SAMPLES)
-    words += ["--against", case.against.name] if case.against else []
-    if case.tolerance is not None:
-        words += ["--tolerance", f"{name}={exactly(case.tolerance)}"]
-    return shlex.join(words)
+    return shlex.join([*words, *_terms(case, name, settings)])
 
 
 def _again(case: Case, settings: Settings, place: Place) -> str:
@@ -278,9 +275,16 @@ def _again(case: Case, settings: Settings, place: Place) -> str:
         words += ["--theta-o", _short(min(float(theta), 89.9999))]  # commands take less than 90
         phi = where.get("phi_o_deg", where.get("phi_i_deg", case.phi_o_deg))
         words += ["--phi-o", _short(phi)] if phi and not model.isotropic else []
-    words += settings.options(SAMPLES)
+    return shlex.join([*words, *_terms(case, place.check, settings)])
+
+
+def _terms(case: Case, check: str, settings: Settings) -> list[str]:
+    """What a command line says of how a check was asked."""
+    words = settings.options(SAMPLES)
     words += ["--against", case.against.name] if case.against else []
-    return shlex.join(words)
+    if case.tolerance is not None:
+        words += ["--tolerance", f"{check}={exactly(case.tolerance)}"]
+    return words
 
 
 def _short(value: Any) -> str:

@@ -74,7 +74,7 @@ def integrand(name: str) -> Integrand:
     work = next(w for w in WORKLOADS if w.name == name)
     model, wo = work.model, from_degrees(work.theta_o_deg)
     p = model.prepared(work.p)
-    f = compiler.specialiser().bind(bound(model.f))
+    f = compiler.specialiser(compiler.compiled).bind(bound(model.f))
 
     def at(theta: float, phi: float) -> float:
         s, c = math.sin(theta), math.cos(theta)

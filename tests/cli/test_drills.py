@@ -43,7 +43,7 @@ def test_disk_full_while_a_report_is_written(warm: Path, tmp_path: Path) -> None
 def test_disk_full_while_a_kernel_is_stored(tmp_path: Path, truth: Any) -> None:
     code, out, _ = run(*QUICK, cache=tmp_path, preexec_fn=limited(256), stdout=subprocess.PIPE)
     assert code == 0 and results(out) == truth
-    assert not list(tmp_path.iterdir())
+    assert {p.name for p in tmp_path.iterdir()} <= {"uses.txt"}  # how often it was of use
 
 
 def test_stdout_full(warm: Path) -> None:

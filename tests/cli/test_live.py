@@ -26,7 +26,7 @@ def test_results_appear_and_are_gone(tmp_path: Path) -> None:
     report = plain.rest()
     plain.close()
     assert "so far" not in report
-    early, *_ = sent.partition("claims  worst")
+    early, *_ = sent.partition("  cause ")
     assert "FAIL         positivity   smallest f / f around it -1(0), allowed >= 0" in early
     assert "pass         isotropy     1 claim\n" in early and "so far" in early and "##" in early
     assert screen(sent) == report

@@ -127,7 +127,7 @@ def test_a_part_that_llvm_cannot_read_is_made_again(
             cache.write(entry.stem, image)
             assert bitcode._read(entry.stem) is None
     (kept,) = {folders.directory() / f"{e.stem}.o" for e in folders.directory().glob("*.o")} - {
-        folders.directory() / f"{bitcode.name_of('part', part)}.o" for part in bitcode._parts
+        folders.directory() / f"{name}.o" for name in bitcode._parts
     }
     kept.unlink()  # the kernel itself, or nothing would be linked
     another_process(monkeypatch)

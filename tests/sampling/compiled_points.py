@@ -9,7 +9,7 @@ import numba
 import numpy as np
 
 from montecarlo_brdf.bits import u64
-from montecarlo_brdf.compile import compiler, kernel
+from montecarlo_brdf.compile import compiler
 from montecarlo_brdf.compile.bind import hole
 from montecarlo_brdf.sampling import points as sets
 
@@ -34,7 +34,8 @@ def warp(u1: Any, u2: Any, out: Any) -> None:
 
 @functools.cache
 def compiled(template: Callable[..., None], **bound: Any) -> Any:
-    return numba.njit(**compiler.options())(kernel.specialiser().clone(template, bound))
+    specialiser = compiler.specialiser(compiler.compiled)
+    return numba.njit(**compiler.options())(specialiser.clone(template, bound))
 
 
 def shape_of(name: str, count: int) -> sets.Shape:

@@ -5,7 +5,7 @@ import pytest
 
 import montecarlo_brdf as mb
 from montecarlo_brdf.bits import u32
-from montecarlo_brdf.compile import kernel
+from montecarlo_brdf.compile import bitcode, compiler, kernel
 from montecarlo_brdf.sampling import charts, points
 from montecarlo_brdf.verify.converge import CLAIMS, SLACK, converge
 
@@ -22,9 +22,10 @@ def verdicts(report):
 def fresh_kernels(monkeypatch):
     """Functions already compiled would hide what a test replaces."""
     monkeypatch.setattr(kernel, "_kernels", {})
-    kernel.specialiser.cache_clear()
+    monkeypatch.setattr(bitcode, "_parts", {})
+    compiler.specialiser.cache_clear()
     yield
-    kernel.specialiser.cache_clear()
+    compiler.specialiser.cache_clear()
 
 
 @pytest.mark.parametrize(
