@@ -3,17 +3,23 @@ code 1 if one is old).
 
 A block stands between `<!-- run: COMMAND -->` or `<!-- commands -->` and `<!-- end -->`. Commands
 run in an empty folder with the files that a page itself shows (`<!-- file: NAME -->`) or has copied
-from the repository (`<!-- copy: PATH -->`).
+from the repository (`<!-- copy: PATH -->`); `<!-- run on a terminal: COMMAND -->` at 80 columns.
 """
 from __future__ import annotations
 
+import contextlib
+import fcntl
 import os
+import pty
 import re
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
+from collections.abc import Callable
 from pathlib import Path
 
 from montecarlo_brdf.foreign import translation, wheel
@@ -21,12 +27,15 @@ from montecarlo_brdf.foreign import translation, wheel
 ROOT = Path(__file__).parent.parent
 PAGES = tuple(ROOT / n for n in ("README.md", "docs/tutorial.md", "docs/own_model.md",
                                 "docs/diagnosis.md"))
-BLOCK = re.compile(r"(<!-- (run|commands):? ?(.*?) ?-->\n)(.*?)(<!-- end -->)", re.DOTALL)
+HEAD = r"(<!-- (run on a terminal|run|commands):? ?(.*?) ?-->\n)"
+BLOCK = re.compile(HEAD + r"(.*?)(<!-- end -->)", re.DOTALL)
 FILE = re.compile(r"<!-- file: (\S+) -->\n```\w*\n(.*?)```", re.DOTALL)
 COPY = re.compile(r"<!-- copy: (\S+) -->")
 #: An estimate and the spaces after it: the last digits are those of the machine.
 ESTIMATE = re.compile(r"(\d\.\d{12})\d*\(\d+\) *")
 PLAIN = {"BRDF_CHECK_QUIET": "1", "COLUMNS": "80", "NO_COLOR": "1", "PYTHONUTF8": "1"}
+
+Run = Callable[[list[str], str], subprocess.CompletedProcess[str]]
 
 
 def updated(text: str) -> str:
@@ -41,13 +50,16 @@ def updated(text: str) -> str:
             head, kind, command, _, end = match.groups()
             if wheel.folder() is None and any(map(translation.is_shader, command.split())):
                 return match[0]  # what this environment cannot run stays as it is
-            body = shown(command, folder) if kind == "run" else table_of_commands()
+            if kind == "commands":
+                body = table_of_commands()
+            else:
+                body = shown(command, folder, terminal if kind.endswith("terminal") else run)
             return f"{head}{body}{end}"
 
         return BLOCK.sub(block, text)
 
 
-def shown(command: str, folder: str) -> str:
+def shown(command: str, folder: str, run: Run) -> str:
     """A command with its output and, unless it is 0, its exit code, as a terminal would show it."""
     done = run(shlex.split(command)[1:], folder)
     lines = [f"$ {command}", *done.stdout.splitlines(), *done.stderr.splitlines()]
@@ -65,6 +77,23 @@ def run(arguments: list[str], folder: str) -> subprocess.CompletedProcess[str]:
         encoding="utf-8",
         check=False,
     )
+
+
+def terminal(arguments: list[str], folder: str) -> subprocess.CompletedProcess[str]:
+    """The same at a terminal of 80 columns, where tables are as narrow as that."""
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("4H", 24, 80, 0, 0))
+    command = [sys.executable, "-m", "montecarlo_brdf", *arguments]
+    environment = {**os.environ, **PLAIN, "TERM": "dumb"}
+    with subprocess.Popen(command, cwd=folder, env=environment, stdout=theirs) as process:
+        os.close(theirs)
+        sent = b""
+        with contextlib.suppress(OSError):  # how a terminal ends
+            while part := os.read(ours, 4096):
+                sent += part
+    os.close(ours)
+    text = sent.decode().replace("\r\n", "\n")
+    return subprocess.CompletedProcess(command, process.returncode, text, "")
 
 
 def table_of_commands() -> str:

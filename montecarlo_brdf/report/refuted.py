@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 #: of one check that failed
 COLUMNS = (
     *(Column("check"), Column("worst"), Column("found"), Column("allowed"), Column("where")),
-    Column("besides"),
+    Column("more"),  # places
 )
-WIDEST = 26  # characters of a place
-LONGEST = 26  # of a quantity
+WIDEST = 22  # characters of a place: with the longest numbers all fits in 80
+LONGEST = 20  # of a quantity
 
 
 def sentence(found: Diagnosis) -> str:
@@ -40,10 +40,10 @@ def placed(place: Place) -> str:
     return f"{place.check}: {place.finding.quantity}{value}{at}{line}; no cause found"
 
 
-def head(found: Diagnosis) -> list[str]:
-    """The verdict, the cause or the place, and the command."""
+def head(found: Diagnosis, width: int) -> list[str]:
+    """The verdict, the cause or the place, and the command, which stays whole to be copied."""
     title = f"{text.called(found.model, found.params)}  {Verdict.FAIL.upper()}"
-    told = [title, f"  {label(found)} {sentence(found)}"]
+    told = [title, *text.indented(f"{label(found)} {sentence(found)}", width)]
     return [*told, f"  again {found.place.reproduce}"] if found.place.reproduce else told
 
 
@@ -68,8 +68,8 @@ def _own(result: Result) -> list[Finding]:
 def _row(check: str, some: Sequence[Finding]) -> Row:
     f = max(some, key=text.excess)
     more = len(some) - 1
-    besides = f"{more} more place{'s' if more > 1 else ''}" if more else ""
-    return check, _cut(f.quantity, LONGEST), f.number, _allowed(f), where(f), besides
+    named = _cut(f.quantity, LONGEST)
+    return check, named, f.number, _allowed(f), where(f), f"+ {more}" if more else ""
 
 
 def _allowed(f: Finding) -> str:

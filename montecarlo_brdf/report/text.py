@@ -198,20 +198,25 @@ def render(
 
     lines = []
     for found in report.diagnosis if verbose else ():
-        lines += _loudly(refuted.head(found), colour)
+        lines += _loudly(refuted.head(found, width), colour)
     for section in sections(report, verbose):
         if section.diagnosis:
-            lines += _loudly(refuted.head(section.diagnosis), colour)
+            lines += _loudly(refuted.head(section.diagnosis, width), colour)
             lines += table(refuted.COLUMNS, refuted.rows(section.results), width, colour)
             hints = [] if section.diagnosis.cause else _hints(section.results)
             lines += map(str, hints)
-            lines += textwrap.wrap("; ".join(refuted.rest(section.results)), width,
-                                   initial_indent="  ", subsequent_indent="  ")
+            lines += indented("; ".join(refuted.rest(section.results)), width)
             continue
         lines.append(painted(section.title, Style.BOLD, colour))
         lines += table(section.columns, section.rows, width, colour)
         lines += dict.fromkeys(map(str, section.sentences))
     return "\n".join([*lines, summary(report, colour, width)]) + "\n"
+
+
+def indented(sentence: str, width: int) -> list[str]:
+    """A sentence below a title, in as many lines as it takes."""
+    return textwrap.wrap(sentence, width, initial_indent="  ", subsequent_indent="  ",
+                         break_long_words=False, break_on_hyphens=False)  # fmt: skip
 
 
 def _loudly(lines: Sequence[str], colour: bool) -> list[str]:
@@ -428,5 +433,5 @@ def summary(report: Report, colour: bool = False, width: int | None = None) -> s
     drawing = f"up to {samples} samples a claim, {points}" if samples else ""
     rate = f"chance of a false alarm <= {report.level:.1g}"
     if report.diagnosis and width is not None:
-        return f"{verdict}  {tally(findings)}; {rate}"
+        return textwrap.fill(f"{verdict}  {tally(findings)}; {rate}", width, subsequent_indent="  ")
     return f"{verdict}  {tally(findings)}; {drawing}seed {report.settings.get('seed')}; {rate}"
