@@ -6,6 +6,8 @@ what has to be silent. Models are asked as if something had failed: no check is 
 
 from __future__ import annotations
 
+import json
+import runpy
 from pathlib import Path
 
 import pytest
@@ -16,6 +18,7 @@ from montecarlo_brdf.diagnosis.repair import Repair
 from montecarlo_brdf.loading import load
 
 TESTS = Path(__file__).parents[1]
+ROOT = TESTS.parent
 #: wrong model -> words of its cause
 NAMED = {
     "ggx_missing_pi": "1/pi is missing: f is 3.14159 times GGX, correlated masking (alpha)",
@@ -84,3 +87,13 @@ def test_no_cause_is_named(source: str, tmp_path: Path) -> None:
     path = tmp_path / "wrong.py"
     path.write_text(source, encoding="utf-8")
     assert repair(path) is None
+
+
+def test_the_page_of_causes_is_that_of_its_results() -> None:
+    """No mutant is told a false cause; if the page is old: python scripts/causes.py"""
+    script = runpy.run_path(str(ROOT / "scripts" / "causes.py"))
+    rows = json.loads(script["RESULTS"].read_text(encoding="utf-8"))
+    assert script["page"](rows) == script["PAGE"].read_text(encoding="utf-8")
+    assert "- 0 of 189 mutants are told a false one" in script["page"](rows)
+    told = {k.split("/")[1]: r.get("cause", "") for k, r in rows.items()}
+    assert all(told[name].startswith(read["told"]) for name, read in script["READ"].items())
