@@ -15,6 +15,7 @@ from montecarlo_brdf.errors import UserError
 Command = Callable[..., Outcome]
 
 
+@pytest.mark.slow
 def test_weights_of_a_mixture_are_not_searched(cli: Command) -> None:
     model = mb.load("0.6 lambert + 0.4 ggx")
     assert searched(model, {}) == ("lambert_albedo", "ggx_alpha", "ggx_f0")

@@ -51,7 +51,10 @@ def gone(*_: Any, **__: Any) -> Any:
 BREAKS: list[tuple[Any, str]] = [(linking, "pipeline"), (linking, "linked"), (native, "load")]
 
 
-@pytest.mark.parametrize(("module", "name"), BREAKS, ids=[name for _, name in BREAKS])
+SOME = [pytest.param(*b, marks=[pytest.mark.slow] * (b is not BREAKS[0])) for b in BREAKS]
+
+
+@pytest.mark.parametrize(("module", "name"), SOME, ids=[name for _, name in BREAKS])
 def test_a_compiler_that_breaks_is_no_mistake_of_the_user(
     fresh: None,
     monkeypatch: pytest.MonkeyPatch,

@@ -151,6 +151,7 @@ def test_several_reports_make_one_page(
     assert "reads schema" in cli("report", "old.json", "-o", "x.html").err
 
 
+@pytest.mark.slow
 def test_pages_of_other_commands(cli: Call, tmp_path: Path) -> None:
     for line in (
         "stress --model lambert --quick", "converge --model lambert --sampler cosine",
