@@ -147,11 +147,20 @@ def factors(known: Known, failed: Failures) -> Iterator[Repair]:
         return
     if found.plain and abs(found.constant - 1.0) < DENSITY:
         return
+    share = found.constant < 1.0 and known.mass_holds
+    if found.plain and not share and _too_full(known, found.constant):
+        return  # divided by it, pdf would add up to more than 1: the fault may be the draws'
     said = _factor_said(known, found)
     extra = 0.5 * cost(found.exponents) + (1.0 if found.word.text else 0.0)
     spots = known.at.spots
     yield _pdf(said, 2.0 + extra,
                divisor=lambda g, k: found.at(g, spots[k].p))
+
+
+def _too_full(known: Known, c: float) -> bool:
+    """Whether pdf/c surely has more mass somewhere than its draws that are not rejected."""
+    masses = ((known.laws.mass(k), known.at.draws[k].rejected) for k in known.index)
+    return any(m / c + rejected - 1.0 > SURE * e / c + MASS_ERROR for (m, e), rejected in masses)
 
 
 def _factor_said(known: Known, found: Factor) -> str:
