@@ -171,11 +171,6 @@ def lit(given: Given, w: Row, p: Numbers) -> float:
     return F(given[:3], w[:3], p) * SKY(w[:3], given[3])
 
 
-def sky_beside(w: Row, number: float) -> float:
-    """A light whose number shares its place with the side of `slopes`."""
-    return SKY(w, abs(number) - 1.0)
-
-
 def blind_uniform(mu: float) -> float:
     """cos/pdf of uniform directions."""
     return mu * TWO_PI
