@@ -37,8 +37,8 @@ def read_report(path: Path) -> Report:
     if data.get("schema") != SCHEMA:
         found = data.get("schema")
         raise UserError(f"{path} has schema {found}; this version reads schema {SCHEMA}")
+    command = _command(path, data.get("command"))
     try:
-        command = Command(data.get("command", ""))
         results = [result_of(result) for result in data["results"]]
         settings, measured = (dict(data.get(name, {})) for name in ("settings", "measured"))
         diagnosis = [diagnosis_of(d, results) for d in data.get("diagnosis", [])]
@@ -48,6 +48,15 @@ def read_report(path: Path) -> Report:
     versions = data.get("versions")
     known = {str(k): str(v) for k, v in versions.items()} if isinstance(versions, dict) else {}
     return Report(command, settings, results, measured, known, diagnosis)
+
+
+def _command(path: Path, name: Any) -> Command:
+    """What a file is a report of; another version may know more commands."""
+    try:
+        return Command(name)
+    except ValueError as error:
+        sentence = f"{path} is a report of {name!r}, which this version does not know"
+        raise UserError(sentence) from error
 
 
 def result_of(data: dict[str, Any]) -> Result:

@@ -227,6 +227,15 @@ def test_reports_of_other_schemas(schema: object, cli: Call, tmp_path: Path) -> 
         assert outcome.err.count("\n") == 1 and not outcome.out
 
 
+@pytest.mark.parametrize("command", ["dance", None, [], 7])
+def test_reports_of_other_commands(command: object, cli: Call, tmp_path: Path) -> None:
+    path = tmp_path / "new.json"
+    path.write_text(json.dumps({"schema": 1, "command": command, "results": []}))
+    outcome = cli("report", path, "-o", tmp_path / "x.html")
+    assert outcome.code == 2 and outcome.err.count("\n") == 1 and not outcome.out
+    assert f"is a report of {command!r}, which this version does not know" in outcome.err
+
+
 def test_a_title_has_room_for_some_names() -> None:
     def title(count: int) -> str:
         rows = [Result(f"model_{k}", {}, "furnace", many(1)) for k in range(count)]
