@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from montecarlo_brdf.cases.case import Case
 from montecarlo_brdf.diagnosis import of_weight
-from montecarlo_brdf.diagnosis.laws import PART_OF, PARTS, Failures, Law, Laws
+from montecarlo_brdf.diagnosis.laws import PART_OF, Failures, Law, Laws
 from montecarlo_brdf.diagnosis.of_values import of_points
 from montecarlo_brdf.diagnosis.repair import Repair, repair
 from montecarlo_brdf.diagnosis.stored import Stored
@@ -51,15 +51,7 @@ class Examined:
             if r.divisor and not self.laws.of_f(r.divisor)
         ]  # fmt: skip
 
-    def chosen(self, more: frozenset[Part] = frozenset()) -> Repair | None:
-        """The simplest repair that mends all of what failed; more: what failed elsewhere."""
-        need = self.need | more
-        good = [r for r in self.repairs if need <= r.mends]
+    def chosen(self, fits: Callable[[Repair], bool] = lambda repair: True) -> Repair | None:
+        """The simplest repair that mends all of what failed here and fits the rest."""
+        good = [r for r in self.repairs if self.need <= r.mends and fits(r)]
         return min(good, key=lambda r: r.penalty, default=None)
-
-
-def broken(failed: Failures, part: Part) -> list[Law]:
-    """The laws of a part that fail."""
-    return [law for law in PARTS[part] if law in failed]
-
-

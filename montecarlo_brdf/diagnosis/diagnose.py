@@ -85,11 +85,7 @@ def _found(case: Case, results: Sequence[Result], failed: Refuted) -> Cause | No
 
 def _chosen(examined: Examined, failed: Refuted) -> Repair | None:
     """The simplest repair that mends all that failed: at the places stored, and of the checks."""
-    good = [
-        r for r in examined.repairs
-        if examined.need <= r.mends and all(_mended(examined, r, *one) for one in failed)
-    ]  # fmt: skip
-    return min(good, key=lambda r: r.penalty, default=None)
+    return examined.chosen(lambda r: all(_mended(examined, r, *one) for one in failed))
 
 
 def _mended(examined: Examined, r: Repair, result: Result, f: Finding) -> bool:

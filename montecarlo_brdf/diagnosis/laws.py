@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 from enum import StrEnum
@@ -127,12 +128,10 @@ class Laws:
             found[Law.ALBEDO] = [Broken(value / due if due else math.inf, k)]
         return found
 
-    @property
+    @functools.cached_property
     def pdf_broken(self) -> bool:
         """Whether pdf is not the density of the draws."""
-        if not hasattr(self, "_pdf_broken"):
-            self._pdf_broken = bool(self.of_pdf())
-        return self._pdf_broken
+        return bool(self.of_pdf())
 
     def _symmetries(self, k: int, divisor: Divisor | None) -> Failures:
         m, v, found = self.at.model, self.at.pairs[k], Failures()
