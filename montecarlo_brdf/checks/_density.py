@@ -95,10 +95,14 @@ def lacking(case: Case, theta: float, plan: Plan) -> list[Measurement]:
     """The mean of (1 - pdf/density)+ over draws: int (density - pdf)+ dw, the distance in total
     variation of draws and pdf if pdf has the mass that it must have. Draws without a density count
     as 0."""
-    at = _drawn(case, theta, plan)
+    return [_lack(case, theta, _drawn(case, theta, plan))]
+
+
+def _lack(case: Case, theta: float, at: Density) -> Measurement:
+    """Of these draws."""
     pdf = _values(case, theta, _pdf(case.model), at.w)
     with np.errstate(all="ignore"):
-        return [_mean(1.0 - pdf / _surely(at, at.density), at)]
+        return _mean(1.0 - pdf / _surely(at, at.density), at)
 
 
 def overweight(case: Case, theta: float, plan: Plan) -> list[Measurement]:
@@ -212,14 +216,12 @@ def farthest(at: Survey) -> int:
 
 def worst_of(places: Iterable[tuple[Case, float]]) -> tuple[Case, float]:
     """The place where looks, each with all roots, show most that pdf lacks."""
-    return max(places, key=lambda place: _seen(*place))
 
+    def seen(place: tuple[Case, float]) -> float:
+        case, theta = place
+        return _lack(case, theta, look(case, theta)).estimate.mean
 
-def _seen(case: Case, theta: float) -> float:
-    at = look(case, theta)
-    pdf = _values(case, theta, _pdf(case.model), at.w)
-    with np.errstate(all="ignore"):
-        return _mean(1.0 - pdf / _surely(at, at.density), at).estimate.mean
+    return max(places, key=seen)
 
 
 def _deficits(at: Survey, index: Index, lobes: bool) -> Array:
